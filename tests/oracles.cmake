@@ -1,4 +1,4 @@
-# What the tests and the benchmarks compare with: the reference renderer, and Mesa where OSMesa is installed.
+# Oracles of the tests and rivals of the benchmarks: the reference renderer, and Mesa if OSMesa is installed.
 include_guard()
 
 find_package(nlohmann_json 3.9 CONFIG REQUIRED)
@@ -11,8 +11,9 @@ if(reference_sources)
   target_link_libraries(tessera_reference PRIVATE tessera_options PUBLIC nlohmann_json::nlohmann_json)
   target_include_directories(tessera_reference PUBLIC ${PROJECT_SOURCE_DIR})
   target_include_directories(tessera_reference SYSTEM PRIVATE ${TESSERA_TINYOBJ_INCLUDE})
-  target_compile_definitions(tessera_reference PRIVATE TESSERA_TEAPOT_PATCHES="${PROJECT_SOURCE_DIR}/engine/program/scenes/teapot_patches.txt")
-  target_compile_options(tessera_reference PRIVATE -O2)  # a pixel at a time in doubles: too slow without, sanitizers or not
+  target_compile_definitions(tessera_reference PRIVATE
+    TESSERA_TEAPOT_PATCHES="${PROJECT_SOURCE_DIR}/engine/program/scenes/teapot_patches.txt")
+  target_compile_options(tessera_reference PRIVATE -O2)  # scalar double precision: too slow without optimization, also in sanitizer builds
 endif()
 
 find_path(TESSERA_OSMESA_INCLUDE GL/osmesa.h)

@@ -1,5 +1,5 @@
-// Draws a white quadrilateral over the middle of a small picture and prints the pixels' sum: the same for
-// every way of linking.
+// Draws a white quadrilateral over the middle of a small picture and prints the sum of the pixels. Every kind
+// of linking must print the same sum.
 #include <tessera/tessera.hpp>
 
 #include <cstdint>
@@ -12,7 +12,7 @@ int main() {
   try {
     tessera::Renderer({.threads = -1});
     return 4;
-  } catch (const tessera::Error&) {  // across the library's border
+  } catch (const tessera::Error&) {  // thrown across the library boundary
   }
   const float positions[] = {-0.5f, -0.5f, 0, 0.5f, -0.5f, 0, 0.5f, 0.5f, 0, -0.5f, 0.5f, 0};
   const std::uint32_t indices[] = {0, 1, 2, 0, 2, 3};

@@ -1,6 +1,7 @@
-# Installs the library, moves what was installed somewhere else, and uses it there as a stranger would: by find_package and by
-# pkg-config, shared and static. Looks at what the shared library exports, needs and weighs.
-# Then as a part of another project (that it is also built there is left to .ci/full: it takes minutes).
+# Installs the library, moves the installation, and uses it there like a user: through find_package and pkg-config, shared
+# and static. Checks exports, dependencies and size of the shared library. Then configures a project that embeds Tessera;
+# building that takes minutes and is left to .ci/full.
+#
 #   cmake -DBUILD=<build tree> -DCOMPILER=<C++ compiler> -DLIBDIR=<lib> -P run.cmake
 set(work ${BUILD}/consumer)
 set(prefix "${work}/moved prefix")
@@ -11,7 +12,7 @@ function(run)
   execute_process(COMMAND ${arg_COMMAND} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
     list(JOIN arg_COMMAND " " command)
-    message(FATAL_ERROR "${command}\nended with ${result}:\n${output}")
+    message(FATAL_ERROR "${command}\nfailed with ${result}:\n${output}")
   endif()
   if(arg_OUTPUT)
     string(STRIP "${output}" output)
@@ -38,13 +39,13 @@ separate_arguments(flags UNIX_COMMAND "${flags}")
 run(COMMAND ${COMPILER} -std=c++20 ${CMAKE_CURRENT_LIST_DIR}/main.cpp -o ${work}/by_pkg_config ${flags} -Wl,-rpath,${prefix}/${LIBDIR})
 run(COMMAND ${work}/by_pkg_config)
 
-message(STATUS "what the shared library needs, exports and weighs")
+message(STATUS "dependencies, exports and size of the shared library")
 run(COMMAND readelf -d ${library} OUTPUT dynamic)
 string(REGEX MATCHALL "NEEDED[^\n]*\\[([^]]*)\\]" needed "${dynamic}")
 foreach(line ${needed})
   string(REGEX REPLACE ".*\\[(.*)" "\\1" name "${line}")
   if(NOT name MATCHES "^(libtbb|libstdc\\+\\+|libm|libgcc_s|libc|ld-linux[^.]*)\\.so")
-    message(FATAL_ERROR "the library needs ${name}; it may need oneTBB alone")
+    message(FATAL_ERROR "the library needs ${name}; only oneTBB and the C++ runtime are allowed")
   endif()
 endforeach()
 if(NOT dynamic MATCHES "SONAME[^\n]*libtessera\\.so\\.[0-9.]+\\]")
@@ -54,7 +55,7 @@ run(COMMAND nm -D --defined-only --demangle ${library} OUTPUT symbols)
 string(REPLACE ";" "," symbols "${symbols}")
 string(REPLACE "\n" ";" symbols "${symbols}")
 foreach(symbol ${symbols})
-  # Besides the interface: what the compiler makes of templates of the standard library, which every library exports weakly.
+  # Allowed besides the interface: instantiations of standard library templates, which are exported as weak symbols.
   if(NOT symbol MATCHES " [TDRVBW] (tessera::|(vtable|typeinfo|typeinfo name) for tessera::|operator[^a-z ]* ?\\(tessera::)" AND NOT symbol MATCHES " [WVu] ")
     message(FATAL_ERROR "the library exports ${symbol}")
   endif()
@@ -67,7 +68,7 @@ file(SIZE ${real} size)
 set(size_limit 4194304)
 message(STATUS "size of the stripped library: ${size} bytes, limit ${size_limit}")
 if(size GREATER size_limit)
-  message(FATAL_ERROR "the stripped library has ${size} bytes; at most ${size_limit} (4 MiB) are allowed")
+  message(FATAL_ERROR "the stripped library has ${size} bytes, must be at most ${size_limit} (4 MiB)")
 endif()
 
 message(STATUS "FetchContent")
@@ -75,6 +76,6 @@ run(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/embedded -B ${work}/em
 run(COMMAND ${CMAKE_COMMAND} --build ${work}/embedded --target help OUTPUT targets)
 foreach(unwanted tessera_cli engine_tests package)
   if(targets MATCHES "\n${unwanted}:")
-    message(FATAL_ERROR "a project that embeds Tessera gets its target ${unwanted}")
+    message(FATAL_ERROR "Tessera defines the target ${unwanted} in a project that embeds it")
   endif()
 endforeach()

@@ -1,5 +1,5 @@
-// The work of frames on a thread pool of the caller's own: fifty lines of it. Two renderers draw with the
-// same one at the same time.
+// Runs the work of frames on the caller's thread pool. Two renderers share the pool and draw at the same
+// time.
 #include <tessera/tessera.hpp>
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-// With a list of jobs, because several renderers may call run() at the same time, or one of them within
-// another's work. For a single renderer one job at a time would do.
+// The list of jobs is needed because several renderers may call run() at the same time, or one of them within
+// a task of another. A single renderer needs only one job at a time.
 class Pool : public tessera::Executor {
  public:
   explicit Pool(int threads) {
@@ -32,7 +32,7 @@ class Pool : public tessera::Executor {
     std::unique_lock lock(mutex_);
     jobs_.push_back(&job);
     wake_.notify_all();
-    while (job.begun < job.count) take(job, lock);  // the caller works, too, but for nobody else
+    while (job.begun < job.count) take(job, lock);  // the caller works on this job only
     done_.wait(lock, [&] { return job.ended == job.count; });
     std::erase(jobs_, &job);
   }
@@ -41,7 +41,9 @@ class Pool : public tessera::Executor {
   struct Job {
     void (*work)(void*, int);
     void* context;
-    int count, begun = 0, ended = 0;
+    int count;
+    int begun = 0;
+    int ended = 0;
   };
   void serve() {
     std::unique_lock lock(mutex_);
@@ -61,7 +63,8 @@ class Pool : public tessera::Executor {
   }
 
   std::mutex mutex_;
-  std::condition_variable wake_, done_;
+  std::condition_variable wake_;
+  std::condition_variable done_;
   std::vector<std::thread> threads_;
   std::vector<Job*> jobs_;
   bool ends_ = false;

@@ -1,4 +1,4 @@
-// What is under the pointer: the draw, the triangle, the normal and the distance, for every pixel at once.
+// The draw, triangle, normal and distance under the pointer, for every pixel at once.
 #include <tessera/tessera.hpp>
 
 #include <cstdint>
@@ -18,12 +18,14 @@ int main() {
                                .projection = tessera::perspective(40, double(kWidth) / kHeight, 1, 10)};
   frame.set_camera(camera);
   frame.clear({.depth = 1.0});
-  frame.draw(mesh, {.transform = tessera::translate(-1, 0, 0)});  // object 0
-  frame.draw(mesh, {.transform =
-                        tessera::translate(1, 0, 1) * tessera::rotate(45, 0, 1, 0)});  // object 1, before it
+  frame.draw(mesh, {.transform = tessera::translate(-1, 0, 0)});  // draw 0
+  // Draw 1, in front of draw 0.
+  frame.draw(mesh, {.transform = tessera::translate(1, 0, 1) * tessera::rotate(45, 0, 1, 0)});
 
-  std::vector<std::uint32_t> draw_ids(kWidth * kHeight), triangles(kWidth * kHeight);
-  std::vector<float> normals(3 * kWidth * kHeight), distances(kWidth * kHeight);
+  std::vector<std::uint32_t> draw_ids(kWidth * kHeight);
+  std::vector<std::uint32_t> triangles(kWidth * kHeight);
+  std::vector<float> normals(3 * kWidth * kHeight);
+  std::vector<float> distances(kWidth * kHeight);
   frame.capture({.draw_ids = draw_ids, .primitive_ids = triangles, .normals = normals});
   frame.keep({tessera::Buffer::depth});
   renderer.finish(frame);

@@ -1,4 +1,4 @@
-// Two renderers on two threads: nothing is shared but the mesh, which both only read.
+// Two renderers on two threads: they share only the mesh, which both read.
 #include <tessera/tessera.hpp>
 
 #include <cstdint>
@@ -7,7 +7,9 @@
 #include <vector>
 
 int main() {
-  constexpr int kWidth = 200, kHeight = 100, kFrames = 20;
+  constexpr int kWidth = 200;
+  constexpr int kHeight = 100;
+  constexpr int kFrames = 20;
   const float positions[] = {-0.9f, -0.9f, 0, 0.9f, -0.9f, 0, 0, 0.9f, 0};
   const auto render = [&](std::vector<std::uint8_t>& pixels) {
     tessera::Renderer renderer({.threads = 1});

@@ -1,5 +1,5 @@
-// A software window: frames into the window's own RGBA pixels, at a steady rate. The window here is memory; a
-// real one gives the address and the stride of its pixels instead (SDL_LockTexture, wl_shm, XShmPutImage).
+// A software window: renders into the window's RGBA pixels at a steady rate. Here the window is plain memory;
+// a real one provides the address and stride of its pixels (SDL_LockTexture, wl_shm, XShmPutImage).
 #include <tessera/tessera.hpp>
 
 #include <chrono>
@@ -10,7 +10,7 @@
 
 struct Window {
   int width = 320, height = 200;
-  std::ptrdiff_t stride_bytes = 4 * 320 + 64;  // many windows have some
+  std::ptrdiff_t stride_bytes = 4 * 320 + 64;  // many windows pad their rows
   std::vector<std::uint8_t> pixels = std::vector<std::uint8_t>(static_cast<std::size_t>(stride_bytes) * 200);
   void present() {}
 };
@@ -24,7 +24,7 @@ int main() {
   Window window;
   tessera::Renderer renderer;
   tessera::FrameBuffer buffer({.width = window.width, .height = window.height, .stencil_bits = 0});
-  tessera::Frame frame(buffer);  // recorded anew for each picture; its camera stays
+  tessera::Frame frame(buffer);  // recorded again for each picture; the camera persists
   frame.set_camera({.view = tessera::look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0}),
                     .projection = tessera::perspective(45, double(window.width) / window.height, 0.1, 100)});
   const auto start = std::chrono::steady_clock::now();
@@ -44,5 +44,6 @@ int main() {
     std::this_thread::sleep_until(next);
   }
   std::printf("%d frames, %d late\n", kFrames, late);
-  return buffer.allocated_bytes(tessera::Buffer::color) == 0 ? 0 : 1;  // pixels went straight into the window
+  // Scan-out wrote to the window directly: the buffer stored no pixels.
+  return buffer.allocated_bytes(tessera::Buffer::color) == 0 ? 0 : 1;
 }

@@ -1,5 +1,4 @@
-// Scenes as assimp might hand them over, at their oddest: arrays that are missing, numbers that are none,
-// indices that point nowhere.
+// Malformed assimp scenes: missing arrays, non-finite numbers, and indices out of range.
 #pragma once
 
 #include <cstddef>
@@ -56,7 +55,7 @@ class AssimpSceneCase {
   }
   aiString name() {
     constexpr const char* kNames[] = {"", "a", "b",
-                                      "c"};  // few: those of nodes, cameras and lights are to meet
+                                      "c"};  // few, so that the names of nodes, cameras and lights coincide
     return aiString(std::string(kNames[from_.below(4)]));
   }
 
@@ -135,7 +134,7 @@ class AssimpSceneCase {
     node.mMeshes = list_of<unsigned>(node.mNumMeshes, [&] {
       return from_.rarely() ? from_.word() : from_.byte() % (scene_.mNumMeshes + (scene_.mNumMeshes == 0));
     });
-    constexpr int kMaxNodeDepth = 600;  // more than are followed
+    constexpr int kMaxNodeDepth = 600;  // more than the importer follows
     const int children = depth < kMaxNodeDepth && !from_.empty() ? from_.below(3) : 0;
     fill(node.mChildren, node.mNumChildren, children, [&](aiNode& child) { make(child, depth + 1); });
   }

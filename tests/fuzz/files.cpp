@@ -19,7 +19,7 @@ std::string read_text_file(const std::string& path, std::size_t) {
 
 void refuse_device_or_pipe(const std::string&) {}
 
-// As the real one for OBJ files, without a process of its own.
+// Reads OBJ files as the real import_model() does, without a child process.
 Model import_model(const std::string& path, ModelUse use, const std::function<bool()>&) {
   Model model = import_obj(path);
   if (use == ModelUse::display) {
@@ -29,8 +29,8 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
   const std::string bytes = to_bytes(model);
   std::optional<Model> received;
   if (const auto error = fuzz::error_of([&] { received = model_from_bytes(bytes, path); }))
-    fuzz::finding("what import_obj made is refused: " + *error);
-  fuzz::require(to_bytes(*received) == bytes, "a model changes on its way between processes");
+    fuzz::finding("the result of import_obj is refused: " + *error);
+  fuzz::require(to_bytes(*received) == bytes, "serialization changed the model");
   return std::move(*received);
 }
 

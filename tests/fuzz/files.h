@@ -1,5 +1,4 @@
-// All the files that code under test can read: read_text_file and import_model are replaced by ones that look
-// here, and nowhere else.
+// In-memory files: replaces read_text_file() and import_model(), so that the code under test reads no others.
 #pragma once
 
 #include <map>
@@ -7,7 +6,7 @@
 
 namespace tessera::fuzz {
 
-/// Bytes by path.
+/// Contents by path.
 extern std::map<std::string, std::string, std::less<>> files;
 
 }  // namespace tessera::fuzz

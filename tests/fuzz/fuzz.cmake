@@ -1,16 +1,19 @@
-# Fuzz targets, one program each. In the preset `fuzz` (clang) libFuzzer drives them, with the address and undefined sanitizers:
+# Fuzz targets, one program each. The preset `fuzz` (clang) links libFuzzer and the address and undefined sanitizers:
 #
 #   cmake --preset fuzz && cmake --build --preset fuzz
-#   build/fuzz/bin/fuzz_scene -dict=tests/fuzz/scene.dict -max_len=4096 FOLDER tests/fuzz/corpus/scene    new inputs go into FOLDER
-#   build/fuzz/bin/fuzz_scene crash-0123...                                                               one input again
-#   build/fuzz/bin/fuzz_scene -merge=1 -max_len=4096 NEW FOLDER tests/fuzz/corpus/scene                   the fewest inputs that reach as much
+#   # Fuzz; new inputs go into FOLDER.
+#   build/fuzz/bin/fuzz_scene -dict=tests/fuzz/scene.dict -max_len=4096 FOLDER tests/fuzz/corpus/scene
+#   # Run one input.
+#   build/fuzz/bin/fuzz_scene crash-0123...
+#   # Minimize: the fewest inputs with the same coverage go into NEW.
+#   build/fuzz/bin/fuzz_scene -merge=1 -max_len=4096 NEW FOLDER tests/fuzz/corpus/scene
 #
-# Every other build replays tests/fuzz/corpus/<target>/: inputs that reach all that was ever reached, and those that found something.
+# Every other build replays tests/fuzz/corpus/TARGET: a minimized set of inputs, and those that once found a bug.
 function(tessera_add_fuzz_target name)
   add_executable(fuzz_${name} ${tests}/fuzz/fuzz_${name}.cpp ${ARGN})
   target_link_libraries(fuzz_${name} PRIVATE tessera_options tessera_kernels tessera_engine $<TARGET_NAME_IF_EXISTS:tessera_scene>
     TBB::tbb glm::glm Threads::Threads ${CMAKE_DL_LIBS})
-  target_compile_options(fuzz_${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # its time passes in what it tests
+  target_compile_options(fuzz_${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # most time is spent in the code under test
   if(TESSERA_SANITIZE MATCHES fuzzer)
     target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
     set(replay -runs=0)

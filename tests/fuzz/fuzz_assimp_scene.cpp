@@ -1,4 +1,4 @@
-// What becomes of assimp's scenes, once its own readers have had their say: from an aiScene to a picture.
+// From an aiScene, as assimp's readers produce it, to a picture.
 #include "engine/program/import/assimp_model.h"
 #include "engine/program/import/model_bytes.h"
 #include "engine/program/import/model_normals.h"
@@ -18,10 +18,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   add_creased_normals(model->mesh, (kind & 4) != 0 ? 0 : kCreaseDegrees);
   orient_by_normals(model->mesh);
   if (const auto error = error_of([&] { model_from_bytes(to_bytes(*model), "model"); }))
-    finding("what was made of a scene is refused: " + *error);
+    finding("the imported scene is refused: " + *error);
   std::optional<Scene> scene;
-  if (error_of([&] { scene = model_scene(*model, "model", 24, 32); })) return 0;  // no extent
+  if (error_of([&] { scene = model_scene(*model, "model", 24, 32); })) return 0;  // the scene has no extent
   if (const auto error = error_of([&] { render_small(*scene); }))
-    finding("what was made of a scene cannot be drawn: " + *error);
+    finding("the imported scene cannot be drawn: " + *error);
   return 0;
 }

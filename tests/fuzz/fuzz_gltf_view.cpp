@@ -1,4 +1,4 @@
-// Cameras and lights of glTF 2 files, text and binary, as they are read beside assimp.
+// Cameras and lights of glTF 2 files, text and binary, which the importer reads in addition to assimp.
 #include "engine/program/import/gltf_view.h"
 #include "engine/program/scene/model_scene.h"
 #include "tests/fuzz/render_small.h"

@@ -1,5 +1,4 @@
-// Numbers drawn from a fuzzer's bytes, with a bias to those that hurt. When the bytes have run out,
-// everything is 0.
+// Numbers drawn from a fuzzer's bytes, biased towards difficult values. All are 0 once the bytes are used up.
 #pragma once
 
 #include <cmath>
@@ -26,7 +25,7 @@ class FuzzInput {
     return bits;
   }
   bool coin() { return (byte() & 1) != 0; }
-  /// Once in 64 times.
+  /// True once in 64 times.
   bool rarely() { return byte() >= 252; }
   /// @pre  n is 1 .. 256
   int below(int n) { return byte() % n; }
@@ -35,7 +34,7 @@ class FuzzInput {
     return static_cast<Enum>(below(count));
   }
 
-  /// Any double: mostly of a size that lands in a picture, often on a grid that meets pixel centres and
+  /// Any double: mostly of a size that lies within a picture, often on a grid that meets pixel centres and
   /// edges.
   double real() {
     const int kind = byte();
@@ -57,9 +56,9 @@ class FuzzInput {
     std::memcpy(&x, &bits, sizeof x);
     return x;
   }
-  /// The same as a float. What is too large becomes infinite.
+  /// The same distribution as a float; values out of range become infinite.
   float real32() { return as_float(real()); }
-  /// Nearly always finite, for what is refused otherwise.
+  /// Nearly always finite, for inputs that must be finite.
   double finite() {
     return nearly_always(real(), [](double x) { return std::isfinite(x); });
   }
@@ -70,12 +69,13 @@ class FuzzInput {
   /// Nearly always 0 .. 1, the ends often.
   float unit() {
     const int kind = byte();
-    if (kind < 250) return static_cast<float>(kind < 16 ? 0 : kind > 200 ? 255 : kind) / 255.0f;
-    return kind == 255 && byte() >= 252 ? real32()
-           : kind == 254                ? -0.0f
-           : kind == 253                ? std::numeric_limits<float>::denorm_min()
-           : kind == 252                ? 1 - 0x1p-24f
-                                        : 0.5f;
+    if (kind < 16) return 0;
+    if (kind <= 200) return static_cast<float>(kind) / 255.0f;
+    if (kind < 250) return 1;
+    if (kind == 252) return 1 - 0x1p-24f;
+    if (kind == 253) return std::numeric_limits<float>::denorm_min();
+    if (kind == 254) return -0.0f;
+    return kind == 255 && byte() >= 252 ? real32() : 0.5f;
   }
   /// Mostly low .. high, else far outside.
   int integer(int low, int high) {
@@ -96,8 +96,8 @@ class FuzzInput {
   }
 
  private:
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity(),
-                          kNan = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   static constexpr double kOdd[32] = {
       kNan,     kNan,      kNan,     kInfinity,      -kInfinity,      kInfinity,   0.0,    -0.0,
       0x1p-149, -0x1p-149, 0x1p-126, 0x1.fffffep127, -0x1.fffffep127, 1e30,        -1e30,  1e-30,

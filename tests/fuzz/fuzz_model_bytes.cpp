@@ -1,4 +1,4 @@
-// What comes from the process that reads a model, should that process have broken.
+// Data from the process that reads a model, in case that process is compromised.
 #include "engine/program/import/model_bytes.h"
 #include "engine/program/import/model_normals.h"
 #include "engine/program/scene/model_scene.h"
@@ -11,9 +11,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string bytes(data, data + size);
   std::optional<Model> model;
   if (error_of([&] { model = model_from_bytes(bytes, "model"); })) return 0;
-  require(to_bytes(*model) == bytes, "a model changes on its way between processes");
+  require(to_bytes(*model) == bytes, "serialization changed the model");
   error_of([&] { render_small(model_scene(*model, "model", 24, 32)); });
-  // The reading process has the same model in its hands.
+  // The reading process holds the same model.
   add_creased_normals(model->mesh);
   orient_by_normals(model->mesh);
   error_of([&] { render_small(model_scene(*model, "model", 32, 24)); });

@@ -1,4 +1,4 @@
-// Image files, as far as their bytes are read and written here: PPM, and PNG of few colours.
+// Image files whose bytes this project reads and writes itself: PPM, and PNG of few colours.
 #include <cstring>
 #include <vector>
 
@@ -19,20 +19,25 @@ void read_ppm(std::string file) {
   const Picture picture = read_picture("picture.ppm");
   require(picture.channels == 3 && picture.rgba.size() == 4 * static_cast<std::size_t>(picture.width) *
                                                               static_cast<std::size_t>(picture.height),
-          "a picture of another size than its header says");
+          "the picture's size differs from its header");
   files["picture.ppm"] = encode_ppm(picture);
   require(read_picture("picture.ppm").rgba == picture.rgba,
           "a picture changes when it is written and read again");
 }
 
 void write_png(FuzzInput& from) {
-  const int bits = 1 << from.below(4), width = 1 + from.below(40), height = 1 + from.below(40),
-            entries = from.integer(0, 1 << bits), compression = from.below(10);
-  std::vector<unsigned char> indices, palette, file;
+  const int bits = 1 << from.below(4);
+  const int width = 1 + from.below(40);
+  const int height = 1 + from.below(40);
+  const int entries = from.integer(0, 1 << bits);
+  const int compression = from.below(10);
+  std::vector<unsigned char> indices;
+  std::vector<unsigned char> palette;
+  std::vector<unsigned char> file;
   for (int i = 0; i < width * height; ++i)
     indices.push_back(
         static_cast<unsigned char>(from.byte() % (entries > 0 && entries < 256 ? entries : 1 << bits)));
-  if (entries < 0 || entries > 256) return;  // a palette of a file is no longer
+  if (entries < 0 || entries > 256) return;  // palettes of files have at most 256 entries
   for (int i = 0; i < 3 * entries; ++i) palette.push_back(from.byte());
   const std::string reason =
       encode_indexed_png(indices.data(), width, height, bits, palette.data(), entries, compression, file);
@@ -53,7 +58,7 @@ void write_png(FuzzInput& from) {
     for (std::size_t c = 0; c < 3; ++c) {
       const int wanted =
           entries > 0 ? palette[3 * std::size_t{indices[i]} + c] : indices[i] * 255 / ((1 << bits) - 1);
-      require(pixels[3 * i + c] == wanted, "a pixel of a PNG is of another colour");
+      require(pixels[3 * i + c] == wanted, "a pixel of the PNG has another colour");
     }
 }
 

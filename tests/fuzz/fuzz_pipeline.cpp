@@ -1,6 +1,6 @@
-// Whole frames through the public interface, each drawn in two ways: by the scalar path, and by a fast one
-// with tiles of another size, on other threads, in parts. Both refuse the same, store the same bits, tell the
-// same, and touch nothing outside of viewports, scissors and image parts.
+// Whole frames through the public interface, each drawn twice: on the scalar path, and on a fast path with
+// another tile size, number of threads and bin memory. Both must refuse the same input, store the same bits,
+// report the same statistics, and touch nothing outside viewports, scissors and image regions.
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
@@ -23,8 +23,7 @@ struct Overloaded : Functions... {
 
 constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation};
 
-/// Everything that is stored: the planes' words, a list for each buffer; empty where there is none, or it was
-/// not kept.
+/// Stored values, one list per buffer; empty if the buffer does not exist or was not kept.
 struct Stored {
   std::vector<std::uint32_t> words[4];
   friend bool operator==(const Stored&, const Stored&) = default;
@@ -47,7 +46,7 @@ Stored stored_in(const FrameBuffer& buffer) {
   return stored;
 }
 
-// Planes say the same as words, bit by bit.
+// Planes hold the same bits as the packed values.
 void require_alike(const FrameBuffer& buffer, const Stored& stored) {
   for (std::size_t b = 0; b < 3; ++b)
     for (int k = 0; !stored.words[b].empty() && k < buffer.plane_count(kBuffers[b]); ++k) {
@@ -57,11 +56,11 @@ void require_alike(const FrameBuffer& buffer, const Stored& stored) {
       for (int y = 0; y < plane.height; ++y)
         for (int x = 0; x < plane.width; ++x, ++word)
           differences |= plane.bits[y * plane.stride_bytes + x / 8] >> (7 - x % 8) ^ *word >> k;
-      require((differences & 1) == 0, "a plane differs from the words that are read");
+      require((differences & 1) == 0, "a plane differs from the packed values");
     }
 }
 
-/// The pixels that a frame may touch, rows from the top.
+/// Pixels that a frame may touch, rows from the top.
 class Reach {
  public:
   explicit Reach(const FrameBufferFormat& format)
@@ -115,12 +114,12 @@ class Canvas {
   void require_untouched_outside() const {
     const Rect part = how_.part.value_or(Rect{0, 0, width_, height_});
     for (std::size_t i = 0; i < bytes.size(); ++i) {
-      const std::int64_t row = static_cast<std::int64_t>(i) / stride_,
-                         x = static_cast<std::int64_t>(i) % stride_ / 4,
-                         y = how_.bottom_up ? row : height_ - 1 - row;
+      const std::int64_t row = static_cast<std::int64_t>(i) / stride_;
+      const std::int64_t x = static_cast<std::int64_t>(i) % stride_ / 4;
+      const std::int64_t y = how_.bottom_up ? row : height_ - 1 - row;
       const bool inside = x < width_ && x >= part.x && x < std::int64_t{part.x} + part.width && y >= part.y &&
                           y < std::int64_t{part.y} + part.height;
-      require(inside || bytes[i] == kUntouched, "an image changed outside of the part that was asked for");
+      require(inside || bytes[i] == kUntouched, "an image changed outside the requested region");
     }
   }
   std::vector<std::uint8_t> bytes;
@@ -132,7 +131,7 @@ class Canvas {
   std::ptrdiff_t stride_;
 };
 
-/// What one way of drawing says and leaves behind.
+/// Error and results of one of the two renderings.
 struct Outcome {
   std::vector<std::string> errors;
   std::vector<Stored> stored;  ///< after each frame
@@ -141,7 +140,7 @@ struct Outcome {
   std::vector<std::uint64_t> counted;
 };
 
-// So that what a frame leaves alone is not just what there was in the beginning.
+// Fills the buffers with different values, so that changes of pixels that must stay are detected.
 void fill(FrameBuffer& buffer, Renderer& renderer) {
   const FrameBufferFormat& format = buffer.format();
   const bool is_index = format.color_mode == ColorMode::index;
@@ -201,9 +200,9 @@ void record(const PipelineCase& from, const PipelineFrame& wanted, Frame& frame,
   for (const PipelineCommand& command : wanted.commands)
     if (const auto error = error_of([&] { run(command); })) outcome.errors.push_back(*error);
   for (std::size_t i = 0; i < frame.draw_count(); ++i)
-    require(!frame.explain(i).empty(), "a draw that is not explained");
+    require(!frame.explain(i).empty(), "the explanation of a draw is empty");
   if (wanted.keep) {
-    // keep() takes a list that is written out.
+    // keep() takes an initializer list.
     const auto has = [&](Buffer b) {
       return std::find(wanted.keep->begin(), wanted.keep->end(), b) != wanted.keep->end();
     };
@@ -217,10 +216,11 @@ void record(const PipelineCase& from, const PipelineFrame& wanted, Frame& frame,
 
 void finish(const PipelineFrame& wanted, FrameBuffer& buffer, Frame& frame, const Reach& reach,
             Renderer& renderer, Outcome& outcome) {
-  const std::size_t pixels = static_cast<std::size_t>(buffer.format().width) *
-                             static_cast<std::size_t>(buffer.format().height),
-                    draws = frame.draw_count();
-  std::vector<std::uint32_t> draw_ids(wanted.captures ? pixels : 0), primitive_ids(draw_ids.size());
+  const std::size_t pixels =
+      static_cast<std::size_t>(buffer.format().width) * static_cast<std::size_t>(buffer.format().height);
+  const std::size_t draws = frame.draw_count();
+  std::vector<std::uint32_t> draw_ids(wanted.captures ? pixels : 0);
+  std::vector<std::uint32_t> primitive_ids(draw_ids.size());
   std::vector<float> normals(3 * draw_ids.size());
   frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals});
   std::optional<Canvas> canvas;
@@ -237,7 +237,7 @@ void finish(const PipelineFrame& wanted, FrameBuffer& buffer, Frame& frame, cons
   } else {
     reach.require_untouched(before, after);
     for (const std::uint32_t object : draw_ids)
-      require(object == Capture::kNothing || object < draws, "a draw is captured that there is none of");
+      require(object == Capture::kNothing || object < draws, "a captured draw number is out of range");
     outcome.counted.insert(
         outcome.counted.end(),
         {stats.vertices, stats.triangles_in, stats.dropped_non_finite, stats.trivially_rejected, stats.culled,
@@ -253,22 +253,22 @@ void finish(const PipelineFrame& wanted, FrameBuffer& buffer, Frame& frame, cons
   for (const float x : normals) outcome.captured.push_back(std::bit_cast<std::uint32_t>(x));
 }
 
-/// Memory at a multiple of 64 that is exactly as long as asked for.
+/// Memory of exactly the requested size, aligned to 64 bytes.
 using LentMemory = std::unique_ptr<std::byte, decltype(&std::free)>;
 
-Outcome draw(const PipelineCase& from, int way) {
+Outcome draw(const PipelineCase& from, int rendering) {
   Outcome outcome;
   const auto error = error_of([&] {
     LentMemory memory(nullptr, &std::free);
     std::optional<FrameBuffer> buffer;
-    if (way == 1 && from.uses_caller_memory) {
+    if (rendering == 1 && from.uses_caller_memory) {
       const std::size_t bytes = FrameBuffer::memory_bytes(from.format);
       memory.reset(static_cast<std::byte*>(std::aligned_alloc(64, (bytes + 63) / 64 * 64)));
       buffer.emplace(from.format, std::span(memory.get(), bytes));
     } else {
       buffer.emplace(from.format);
     }
-    Renderer renderer(from.options[way]);
+    Renderer renderer(from.options[rendering]);
     fill(*buffer, renderer);
     Frame frame(*buffer);
     for (const PipelineFrame& wanted : from.frames) {
@@ -287,14 +287,15 @@ Outcome draw(const PipelineCase& from, int way) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace tessera::fuzz;
-  static const tessera::ThreadLimit limit(3);
+  static const tessera::program::ThreadLimit limit(3);
   FuzzInput bytes(data, size);
   const PipelineCase from(bytes);
-  const Outcome scalar = draw(from, 0), fast = draw(from, 1);
-  require(scalar.errors == fast.errors, "two ways to draw a frame refuse different things");
-  require(scalar.stored == fast.stored, "two ways to draw a frame store different bits");
-  require(scalar.pictures == fast.pictures, "two ways to draw a frame show different pictures");
-  require(scalar.captured == fast.captured, "two ways to draw a frame capture different things");
-  require(scalar.counted == fast.counted, "two ways to draw a frame count different triangles");
+  const Outcome scalar = draw(from, 0);
+  const Outcome fast = draw(from, 1);
+  require(scalar.errors == fast.errors, "the renderings report different errors");
+  require(scalar.stored == fast.stored, "the renderings store different bits");
+  require(scalar.pictures == fast.pictures, "the renderings show different pictures");
+  require(scalar.captured == fast.captured, "the renderings capture different values");
+  require(scalar.counted == fast.counted, "the renderings count different triangles");
   return 0;
 }

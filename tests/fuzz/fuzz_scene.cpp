@@ -1,4 +1,4 @@
-// Scene files: the parser, numbers that change over time, and the frame that a sound scene makes.
+// Scene files: the parser, animated numbers, and the frame of a valid scene.
 #include <algorithm>
 
 #include "engine/program/scene/json_value.h"
@@ -11,13 +11,13 @@ namespace tessera::fuzz {
 using namespace program;
 namespace {
 
-// Built-in meshes of up to millions of triangles are sound, and slow.
+// Built-in meshes of millions of triangles are valid but slow.
 bool asks_for_much(const json::Json& json) {
-  constexpr double kMostDetail = 12;
+  constexpr double kMaxDetail = 12;
   if (json.is_object())
     for (const auto& [key, member] : json.items())
       if ((key == "detail" &&
-           ((member.is_number() && member.get<double>() > kMostDetail) || member.is_structured())) ||
+           ((member.is_number() && member.get<double>() > kMaxDetail) || member.is_structured())) ||
           asks_for_much(member))
         return true;
   return json.is_array() && std::any_of(json.begin(), json.end(), asks_for_much);

@@ -15,7 +15,8 @@ FrameBufferFormat read_format(FuzzInput& from) {
   FrameBufferFormat format;
   const auto side = [&](int byte) { return 1 + byte % kMaxSidePixels; };
   format.width = side(from.byte()), format.height = side(from.byte());
-  const int kind = from.byte(), more = from.byte();
+  const int kind = from.byte();
+  const int more = from.byte();
   const bool is_index = (kind & 7) == 7;
   format.color_mode = is_index ? ColorMode::index : ColorMode::rgb;
   format.color_bits = (kind & 8) == 0 ? is_index ? 8 : 24 : 1 + from.below(24);
@@ -23,7 +24,7 @@ FrameBufferFormat read_format(FuzzInput& from) {
   format.stencil_bits = more % 9;
   format.dither = static_cast<Dither>((more & 0x80) != 0 ? more >> 4 & 3 : 0);
   const int extras = from.byte();
-  if ((extras & 0xe0) == 0xe0) {  // of many tiles; not often, for they take long
+  if ((extras & 0xe0) == 0xe0) {  // many tiles; rare because they are slow
     constexpr int kLarge[][2] = {{300, 60}, {60, 300}, {2080, 8}, {8, 2080}};
     const auto& large = kLarge[from.below(4)];
     format.width = large[0], format.height = large[1];
@@ -42,26 +43,28 @@ FrameBufferFormat read_format(FuzzInput& from) {
   return format;
 }
 
-// One of its numbers is out of range.
+// Sets one field of the format out of range.
 FrameBufferFormat spoilt(FrameBufferFormat format, FuzzInput& from) {
   int* const numbers[] = {&format.width,        &format.height,     &format.color_bits,
                           &format.stencil_bits, &format.alpha_bits, &format.accumulation_bits,
                           &format.samples};
-  *numbers[from.below(7)] = from.coin() ? -1 : from.coin() ? 1 << 30 : 9;
+  int bad = -1;
+  if (!from.coin()) bad = from.coin() ? 1 << 30 : 9;
+  *numbers[from.below(7)] = bad;
   return format;
 }
 
-// The first is the scalar path in whole, on one thread; the other one of the fast ones, on some threads, in
-// some order, maybe in parts.
+// The first renderer is scalar, with one thread and one bin pass; the second uses a fast instruction set,
+// several threads, a random task order and sometimes several passes.
 void read_options(FuzzInput& from, RendererOptions (&options)[2]) {
   constexpr int kTileSizes[] = {32, 64, 128, 0};
   const std::vector<InstructionSet> sets = available_instruction_sets();
   const int bits = from.byte();
-  for (int way = 0; way < 2; ++way) {
-    options[way].threads = 1;
-    options[way].tile_size = kTileSizes[bits >> 2 * way & 3];
-    options[way].defer_shading = (bits >> (4 + way) & 1) == 0;
-    options[way].count_fragments = (bits >> (6 + way) & 1) != 0;
+  for (int i = 0; i < 2; ++i) {
+    options[i].threads = 1;
+    options[i].tile_size = kTileSizes[bits >> 2 * i & 3];
+    options[i].defer_shading = (bits >> (4 + i) & 1) == 0;
+    options[i].count_fragments = (bits >> (6 + i) & 1) != 0;
   }
   const int work = from.byte();
   options[1].threads = 1 + (work & 0x3f) % 3;
@@ -72,13 +75,13 @@ void read_options(FuzzInput& from, RendererOptions (&options)[2]) {
       sets[static_cast<std::size_t>(from.below(static_cast<int>(std::max<std::size_t>(sets.size() - 1, 1))))];
 }
 
-/// Numbers of a mesh: each from the bytes, or all from one seed, most of them near -1 .. 1.
+/// Numbers of a mesh: each from the bytes, or all from one seed and mostly near -1 .. 1.
 class Numbers {
  public:
   explicit Numbers(FuzzInput& from) : from_(from), state_(from.byte()) {}
   float next() {
     if (state_ % 2 == 0) return from_.real32();
-    state_ = state_ * 6364136223846793005u + 1442695040888963406u;  // the lowest bit stays
+    state_ = state_ * 6364136223846793005u + 1442695040888963406u;  // the even increment keeps bit 0 set
     return static_cast<float>(static_cast<std::int32_t>(state_ >> 40) - (1 << 23)) /
            static_cast<float>(1 << 22);
   }
@@ -99,7 +102,8 @@ std::vector<float> read_floats(FuzzInput& from, const ExactSizeMesh& mesh, std::
 
 ExactSizeMesh read_mesh(FuzzInput& from) {
   ExactSizeMesh own;
-  const int kind = from.byte(), has = from.byte();
+  const int kind = from.byte();
+  const int has = from.byte();
   own.mesh.primitive = static_cast<Primitive>(kind % 10);
   own.mesh.position_components = (has & 1) != 0 ? 4 : 3;
   own.vertices = static_cast<std::size_t>((has & 2) != 0 ? from.below(65) : 12);
@@ -128,23 +132,26 @@ ExactSizeMesh read_mesh(FuzzInput& from) {
     }
     own.indices.shrink_to_fit(), own.short_indices.shrink_to_fit();
   }
-  if (from.rarely()) {  // arrays that do not fit together
+  if (from.rarely()) {  // mismatched arrays
     std::vector<float>* const lists[] = {&own.positions, &own.normals, &own.colors, &own.texcoords,
                                          &own.color_indices};
     std::vector<float>& list = *lists[from.below(5)];
     if (!list.empty() && own.stride_floats == 0) list = std::vector<float>(list.begin(), list.end() - 1);
     else if (const int odd = from.integer(0, 8); odd != 4 || own.stride_floats == 0)
       own.mesh.position_components =
-          odd;  // with a stride, nobody could tell that the last vertex has three only
+          odd;  // with a stride, a last vertex of only three components would not be detected
   }
   return own;
 }
 
 Texture read_texture(FuzzInput& from) {
-  const int width = 1 + from.below(33), height = 1 + from.below(33), kind = from.byte();
+  const int width = 1 + from.below(33);
+  const int height = 1 + from.below(33);
+  const int kind = from.byte();
   TextureImage image{
       .width = width, .height = height, .channels = 1 + (kind & 3), .bottom_row_first = (kind & 4) != 0};
-  const std::ptrdiff_t row = std::ptrdiff_t{width} * image.channels, gap = (kind & 8) != 0 ? from.byte() : 0;
+  const std::ptrdiff_t row = std::ptrdiff_t{width} * image.channels;
+  const std::ptrdiff_t gap = (kind & 8) != 0 ? from.byte() : 0;
   image.stride_bytes = gap != 0 ? row + gap : 0;
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>((row + gap) * (height - 1) + row));
   std::uint32_t state = from.byte();
@@ -175,7 +182,8 @@ DrawBitmap read_bitmap(FuzzInput& from, StateReader& states) {
   DrawBitmap command;
   Bitmap& bitmap = command.bitmap;
   bitmap.width = 1 + from.below(70), bitmap.height = 1 + from.below(20);
-  const std::ptrdiff_t row = (bitmap.width + 7) / 8, gap = from.coin() ? from.below(5) : 0;
+  const std::ptrdiff_t row = (bitmap.width + 7) / 8;
+  const std::ptrdiff_t gap = from.coin() ? from.below(5) : 0;
   bitmap.stride_bytes = gap != 0 ? row + gap : 0;
   command.bits = read_texels(from, (row + gap) * (bitmap.height - 1) + row);
   bitmap.x = 8 * from.finite(), bitmap.y = 8 * from.finite();
@@ -189,8 +197,8 @@ DrawImage read_image(FuzzInput& from, StateReader& states) {
   DrawImage command;
   PixelImage& image = command.image;
   image.width = 1 + from.below(20), image.height = 1 + from.below(20), image.channels = 1 + from.below(4);
-  const std::ptrdiff_t row = std::ptrdiff_t{image.width} * image.channels,
-                       gap = from.coin() ? from.below(5) : 0;
+  const std::ptrdiff_t row = std::ptrdiff_t{image.width} * image.channels;
+  const std::ptrdiff_t gap = from.coin() ? from.below(5) : 0;
   image.stride_bytes = gap != 0 ? row + gap : 0;
   command.pixels = read_texels(from, (row + gap) * (image.height - 1) + row);
   image.x = 8 * from.finite(), image.y = 8 * from.finite();
@@ -202,7 +210,8 @@ DrawImage read_image(FuzzInput& from, StateReader& states) {
 
 PipelineFrame read_frame(FuzzInput& from, StateReader& states, const PipelineCase& all) {
   PipelineFrame frame;
-  const int count = 1 + from.below(8), ends = from.byte();
+  const int count = 1 + from.below(8);
+  const int ends = from.byte();
   for (int i = 0; i < count && !from.empty(); ++i) {
     const int kind = from.below(16);
     if (kind < 8)

@@ -1,5 +1,5 @@
-// Frames made of a fuzzer's bytes: everything that the public interface takes, in sizes that are quickly
-// drawn.
+// Frames built from a fuzzer's bytes: everything the public interface accepts, in sizes that are drawn
+// quickly.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,19 @@
 
 namespace tessera::fuzz {
 
-/// Arrays without a byte behind their ends.
+/// Arrays allocated exactly, so that sanitizers detect reads past their ends.
 struct ExactSizeMesh {
-  Mesh mesh;  ///< all but its arrays
-  std::vector<float> positions, normals, colors, color_indices, texcoords;
+  Mesh mesh;  ///< without its arrays
+  std::vector<float> positions;
+  std::vector<float> normals;
+  std::vector<float> colors;
+  std::vector<float> color_indices;
+  std::vector<float> texcoords;
   std::vector<std::uint8_t> color_bytes;
   std::vector<std::uint32_t> indices;
   std::vector<std::uint16_t> short_indices;
-  std::size_t vertices = 0,
-              stride_floats = 0;  ///< stride_floats: between the vertices of all float arrays; 0: packed
+  std::size_t vertices = 0;
+  std::size_t stride_floats = 0;  ///< floats between vertices in all float arrays; 0: packed
   Mesh view() const;
 };
 
@@ -44,7 +48,7 @@ using LightList = std::vector<Light>;
 using PipelineCommand =
     std::variant<DrawMesh, DrawBitmap, DrawImage, Clear, Accum, Camera, LightList, LightModel>;
 
-/// How the picture of a frame leaves it; absent: it stays in the buffer.
+/// Destination of a frame's picture; absent: it stays in the buffer.
 struct Presentation {
   std::ptrdiff_t gap_bytes = 0;  ///< between rows
   bool bottom_up = false;        ///< rows go up in memory
@@ -66,8 +70,8 @@ class PipelineCase {
   PipelineCase& operator=(const PipelineCase&) = delete;
 
   FrameBufferFormat format;
-  RendererOptions options[2];       ///< two ways to draw the same
-  bool uses_caller_memory = false;  ///< the second way draws into memory of the caller
+  RendererOptions options[2];       ///< for the two renderings
+  bool uses_caller_memory = false;  ///< the second rendering draws into memory of the caller
   std::deque<Texture> textures;
   std::vector<ExactSizeMesh> meshes;
   std::vector<PipelineFrame> frames;

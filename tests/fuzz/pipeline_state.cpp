@@ -17,7 +17,7 @@ Color StateReader::unit_color() {
   return {r, g, b, from_.unit()};
 }
 
-// Functions of the interface make most of them; what they refuse becomes the identity.
+// Most are made by the interface's functions; the identity replaces those that it refuses.
 Matrix StateReader::matrix() {
   Matrix result;
   const auto number = [&] { return from_.finite(); };
@@ -35,7 +35,9 @@ Matrix StateReader::matrix() {
         break;
       }
       case 3: {
-        const double degrees = 90 * number(), x = number(), y = number();
+        const double degrees = 90 * number();
+        const double x = number();
+        const double y = number();
         result = rotate(degrees, x, y, number());
         break;
       }
@@ -66,13 +68,15 @@ Camera StateReader::camera() {
     switch (from_.below(6)) {
       case 0: break;
       case 1: {
-        const double fovy = 60 + 30 * number(), near = from_.coin() ? 0.5 : number(),
-                     far = from_.coin() ? 10 : from_.real();
+        const double fovy = 60 + 30 * number();
+        const double near = from_.coin() ? 0.5 : number();
+        const double far = from_.coin() ? 10 : from_.real();
         camera.projection = perspective(fovy, 1, near, far, camera.reversed);
         break;
       }
       case 2: {
-        const double near = from_.coin() ? -4 : number(), half = from_.coin() ? 2 : number();
+        const double near = from_.coin() ? -4 : number();
+        const double half = from_.coin() ? 2 : number();
         camera.projection =
             orthographic(-half, half, -half, half, near, from_.coin() ? 4 : number(), camera.reversed);
         break;
@@ -91,7 +95,8 @@ Camera StateReader::camera() {
       default: camera.projection = matrix();
     }
     if (from_.coin()) {
-      const Vec3 eye{number(), number(), 3 + number()}, target{number(), number(), number()};
+      const Vec3 eye{number(), number(), 3 + number()};
+      const Vec3 target{number(), number(), number()};
       camera.view = look_at(eye, target, {0, 1, 0});
     } else {
       camera.view = matrix();
@@ -132,8 +137,9 @@ LightModel StateReader::light_model() {
 }
 
 Rect StateReader::rect() {
-  const int x = from_.integer(-8, format_.width), y = from_.integer(-8, format_.height),
-            width = from_.integer(0, format_.width + 8);
+  const int x = from_.integer(-8, format_.width);
+  const int y = from_.integer(-8, format_.height);
+  const int width = from_.integer(0, format_.width + 8);
   return {x, y, width, from_.integer(0, format_.height + 8)};
 }
 
@@ -143,7 +149,7 @@ std::optional<Rect> StateReader::scissor() {
   return rect();
 }
 
-// Of points and lines.
+// Sizes of points and lines.
 float StateReader::size() {
   const float x = from_.finite32();
   return x == 0 ? 1 : std::abs(x);
@@ -177,7 +183,8 @@ StencilFace StateReader::stencil_face() {
 
 std::array<bool, 4> StateReader::color_mask() {
   const int bits = from_.byte();
-  const bool alike = is_index() || format_.color_bits <= 2, red = (bits & 1) != 0;
+  const bool alike = is_index() || format_.color_bits <= 2;
+  const bool red = (bits & 1) != 0;
   if (alike && bits < 252) return {red, red, red, (bits & 8) != 0};
   return {red, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0};
 }
@@ -216,13 +223,16 @@ void StateReader::read_operations(DrawState& state) {
 DrawState StateReader::draw_state(const std::deque<Texture>& textures) {
   DrawState state;
   read_operations(state);
-  const int how = from_.byte(), shape = from_.byte(), more = from_.byte();
+  const int how = from_.byte();
+  const int shape = from_.byte();
+  const int more = from_.byte();
   state.shading = static_cast<Shading>((how & 3) % 3);
   state.lighting = (how & 4) == 0;
   state.normalize = (how & 8) == 0;
   state.provoking_vertex = static_cast<ProvokingVertex>(how >> 4 & 1);
   state.front_face = static_cast<FrontFace>(how >> 5 & 1);
-  state.cull = (how & 0x80) == 0 ? Cull::none : (how & 0x40) != 0 ? Cull::back : Cull::front;
+  state.cull = Cull::none;
+  if ((how & 0x80) != 0) state.cull = (how & 0x40) != 0 ? Cull::back : Cull::front;
   state.front_mode = static_cast<PolygonMode>((shape & 3) % 3),
   state.back_mode = static_cast<PolygonMode>((shape >> 2 & 3) % 3);
   state.color_material = static_cast<ColorMaterial>((shape >> 4 & 7) % 6);
@@ -240,7 +250,7 @@ DrawState StateReader::draw_state(const std::deque<Texture>& textures) {
     state.viewport = rect();
     if (state.viewport->width == 0) state.viewport->width = format_.width;
     if (state.viewport->height == 0) state.viewport->height = format_.height;
-    // What a viewport keeps in, a scissor need not.
+    // A viewport inside the window needs no scissor.
     if (window_ && from_.coin()) state.viewport = window_, state.scissor.reset();
   }
   if ((more & 128) != 0) {

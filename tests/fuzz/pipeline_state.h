@@ -1,4 +1,4 @@
-// States, cameras and lights of a fuzzer's bytes.
+// States, cameras and lights from a fuzzer's bytes.
 #pragma once
 
 #include <deque>
@@ -11,12 +11,12 @@ namespace tessera::fuzz {
 
 class StateReader {
  public:
-  /// @param window  where all that the states let through is to stay; absent: anywhere
+  /// @param window  bounds of every pixel that the states may touch; absent: no bounds
   StateReader(FuzzInput& from, const FrameBufferFormat& format, std::optional<Rect> window)
       : from_(from), format_(format), window_(window) {}
 
   Color any_color();
-  /// Components of 0 .. 1.
+  /// Components are 0 .. 1.
   Color unit_color();
   Matrix matrix();
   Camera camera();
@@ -24,7 +24,7 @@ class StateReader {
   LightModel light_model();
   /// Mostly within or around the buffer.
   Rect rect();
-  /// A scissor, where the window asks for one.
+  /// A scissor, if there is a window.
   std::optional<Rect> scissor();
   DrawState draw_state(const std::deque<Texture>& textures);
   FragmentState fragment_state();
@@ -33,7 +33,7 @@ class StateReader {
 
  private:
   bool is_index() const { return format_.color_mode == ColorMode::index; }
-  /// Nearly always what the buffer can do.
+  /// Nearly always supported by the buffer.
   bool wants(bool possible) { return possible ? from_.byte() % 3 == 0 : from_.rarely(); }
   float size();
   Material material();

@@ -1,4 +1,4 @@
-// Renders a scene as the program does, on a few pixels.
+// Renders a scene as the program does, at a few pixels.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace tessera::fuzz {
 using namespace program;
 
-/// Scenes of many triangles are left out: they would take the fuzzer's time, and show nothing new.
+/// Skips scenes of many triangles, which are slow and add no coverage.
 /// @throws Error as the program would.
 inline void render_small(Scene scene) {
   constexpr int kMaxSidePixels = 32;

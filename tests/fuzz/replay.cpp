@@ -1,4 +1,4 @@
-// Runs a fuzz target over files and folders of files: every build's tests replay what the fuzzer has kept.
+// Runs a fuzz target over files and folders of files: the tests of every build replay the corpus.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -35,11 +35,11 @@ int main(int argc, char** argv) {
         return 1;
       }
       const std::string bytes(std::istreambuf_iterator<char>(file), {});
-      // A copy of its own, without a byte behind its end.
+      // An exact copy, so that sanitizers detect reads past the end.
       const std::vector<std::uint8_t> input(bytes.begin(), bytes.end());
       LLVMFuzzerTestOneInput(input.data(), input.size());
       ++count;
     }
   std::fprintf(stderr, "replay: %zu inputs\n", count);
-  return count > 0 ? 0 : 1;  // a corpus that is gone tests nothing
+  return count > 0 ? 0 : 1;  // an empty corpus tests nothing
 }

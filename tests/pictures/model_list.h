@@ -1,4 +1,4 @@
-// Real models of Debian's packages glmark2-data and assimp-testmodels: those of the README's page.
+// Models of the Debian packages glmark2-data and assimp-testmodels.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// One scene, three pictures: by the engine, by the reference renderer and, where it can follow, by Mesa; and
-// the rule by which two of them count as the same.
+// Draws one scene with the engine, the reference renderer and, if it supports the scene, Mesa, and defines
+// when two of the pictures count as equal.
 #pragma once
 
 #include <cstdint>
@@ -11,42 +11,43 @@
 
 namespace tessera::test {
 
-/// Shares of pixels that may differ by more than reference::kTolerance levels: of the interior ones (where
-/// the reference is smooth, see reference::kInteriorSpan) and of all.
+/// Fractions of pixels that may differ by more than reference::kTolerance levels: of interior pixels (where
+/// the reference is smooth, see reference::kInteriorSpan) and of all pixels.
 ///
-/// Rounded down to whole pixels, so pictures of less than 200 pixels may not differ at all. That asks nothing
-/// unfair of them: both shares stand for rounding, at edges and between stored levels, whose chance is the
-/// same for each pixel, so that a small picture is as likely to have none as a large one is to stay below its
-/// share.
+/// Rounded down to whole pixels, so pictures of fewer than 200 pixels may not differ at all. Small pictures
+/// are not at a disadvantage: both fractions allow for rounding at edges and between stored levels, whose
+/// probability per pixel does not depend on the size.
 inline constexpr double kInteriorShare = 0.001;
 inline constexpr double kWholeShare = 0.005;
 
 bool obeys_rule(const reference::Comparison& comparison);
 
-/// 3 bytes a pixel, rows from the top; empty if there is no such picture.
+/// 3 bytes per pixel, rows from the top; empty if there is no picture.
 using Rgb = std::vector<std::uint8_t>;
 
 struct ThreeWayReport {
-  std::string name;  ///< the scene file's, without folder and ending
+  std::string name;  ///< name of the scene file without folder and extension
   int width_px = 0, height_px = 0;
-  Rgb engine, reference, mesa;
-  std::string mesa_cannot;  ///< why Mesa cannot follow; empty if it can
+  Rgb engine;
+  Rgb reference;
+  Rgb mesa;
+  std::string mesa_cannot;  ///< why Mesa does not support the scene; empty if it does
   reference::Comparison engine_to_reference;
-  reference::Comparison mesa_to_reference;  ///< this and the next are empty if Mesa cannot follow
-  reference::Comparison engine_to_mesa;     ///< interior pixels by Mesa's picture
+  reference::Comparison mesa_to_reference;  ///< this and the next are empty without Mesa's picture
+  reference::Comparison engine_to_mesa;     ///< interior pixels according to Mesa's picture
 
   bool is_good() const;
   std::string text() const;
 };
 
-/// Draws a scene file three times and compares.
+/// Draws a scene file with all three renderers and compares the pictures.
 ///
-/// @param options  of the engine's renderer.
+/// @param options  of the engine's renderer
 /// @throws std::exception if one of the three cannot read or draw the scene.
 ThreeWayReport compare_three_ways(const std::string& path, const RendererOptions& options = {});
 
-/// Writes the pictures and their differences (16 times as strong) into the folder that the environment
-/// variable TESSERA_PICTURES names, `tessera_pictures` among the temporary files by default.
+/// Writes the pictures and their differences (multiplied by 16) into the folder named by the environment
+/// variable TESSERA_PICTURES; default: `tessera_pictures` in the temporary folder.
 /// @return the folder
 std::string write_pictures(const ThreeWayReport& report);
 

@@ -1,5 +1,5 @@
-// Real models: what the importer makes of each is written down as a scene file, which the engine, the
-// reference renderer and Mesa then draw, each with its own reader.
+// Real models: the importer's result is written as a scene file, which the engine, the reference renderer and
+// Mesa read independently and draw.
 #include "engine/program/scene/model_scene.h"
 #include "tests/pictures/model_list.h"
 #include "tests/pictures/picture_harness.h"
@@ -95,7 +95,7 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 
 class PictureModel : public testing::TestWithParam<std::string> {};
 
-TEST_P(PictureModel, IsTheSameByEngineReferenceAndMesa) {
+TEST_P(PictureModel, MatchesReferenceAndMesa) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("tessera_models_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);

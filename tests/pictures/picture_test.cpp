@@ -1,7 +1,7 @@
-// Whole pictures: every scene of tests/scenes and the built-in one, drawn by the engine, by the reference
-// renderer and by Mesa. The rule (picture_harness.h) is the same for all of them. In pictures of few levels
-// or palette entries a rounding that goes the other way is a whole level off: such pixels lie where two
-// levels meet, and few enough of them are near enough to the middle between the two.
+// Whole pictures: every scene of tests/scenes and the built-in one, drawn by the engine, the reference
+// renderer and Mesa. One rule applies to all of them (picture_harness.h). In pictures of few levels or
+// palette entries, one different rounding changes a pixel by a whole level. Such pixels lie where two levels
+// meet, and only few of them are close enough to the middle.
 #include "tests/mesa/mesa_renderer.h"
 #include "tests/pictures/picture_harness.h"
 #include "tests/reference/scene.h"
@@ -35,15 +35,16 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 
 class Picture : public testing::TestWithParam<std::string> {};
 
-TEST_P(Picture, IsTheSameByEngineReferenceAndMesa) {
+TEST_P(Picture, MatchesReferenceAndMesa) {
   const ThreeWayReport report = compare_three_ways(GetParam());
   if (!report.is_good()) ADD_FAILURE() << report.text() << "\n  pictures in " << write_pictures(report);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Picture, testing::ValuesIn(scene_files()), test_name);
 
-TEST(PictureScenes, AreAllThereAndMesaFollowsMost) {
-  constexpr std::size_t kAtLeast = 340, kByMesaAtLeast = 250;
+TEST(PictureScenes, AreCompleteAndMesaSupportsMost) {
+  constexpr std::size_t kAtLeast = 340;
+  constexpr std::size_t kByMesaAtLeast = 250;
   EXPECT_GE(scene_files().size(), kAtLeast) << "in " TESSERA_TEST_SCENES;
   std::size_t by_mesa = 0;
   for (const std::string& file : scene_files())
@@ -51,13 +52,14 @@ TEST(PictureScenes, AreAllThereAndMesaFollowsMost) {
   EXPECT_GE(by_mesa, kByMesaAtLeast);
 }
 
-// Mesa takes one level of detail for several pixels: its own two drivers differ by more than the rule allows
-// there.
-TEST(PictureTextures, ComeNearMesasOwnLevelOfDetailWhereMipmapped) {
-  constexpr double kShareOfAll = 0.94, kShareOfEach = 0.85;  // some are nothing but levels that change
+// Mesa uses one level of detail for several pixels: the pictures of its two drivers differ by more than the
+// rule allows.
+TEST(PictureTextures, ComeNearMesasLevelOfDetailIfMipmapped) {
+  constexpr double kShareOfAll = 0.94;
+  constexpr double kShareOfEach = 0.85;  // some scenes consist of level transitions only
   int pictures = 0;
   reference::Counts all{};
-  double least = 1;
+  double min_alike = 1;
   for (const std::string& file : scene_files()) {
     const reference::Scene scene = reference::load_scene(file);
     const bool mipmapped = std::ranges::any_of(
@@ -65,14 +67,14 @@ TEST(PictureTextures, ComeNearMesasOwnLevelOfDetailWhereMipmapped) {
     if (!mipmapped || mesa::unsupported(scene)) continue;
     const ThreeWayReport report = compare_three_ways(file);
     const Rgb own = mesa::render(scene, mesa::LevelOfDetail::mesas_own);
-    if (own == report.mesa) continue;  // lit by programs, textures and all
+    if (own == report.mesa) continue;  // lit by shaders, which also choose the level of detail
     const reference::Counts counts =
         reference::compare(own, report.engine, report.width_px, report.height_px).all;
     const double alike = 1 - static_cast<double>(counts.differing) / static_cast<double>(counts.pixels);
     EXPECT_GE(alike, kShareOfEach) << report.name;
     all.pixels += counts.pixels;
     all.differing += counts.differing;
-    least = std::min(least, alike);
+    min_alike = std::min(min_alike, alike);
     ++pictures;
   }
   EXPECT_GE(pictures, 15);
@@ -81,7 +83,7 @@ TEST(PictureTextures, ComeNearMesasOwnLevelOfDetailWhereMipmapped) {
   std::printf(
       "[  figure  ] %d pictures with Mesa's own level of detail: %.2f %% of the pixels within %d levels, of "
       "each at least %.2f %%\n",
-      pictures, 100 * alike, reference::kTolerance, 100 * least);
+      pictures, 100 * alike, reference::kTolerance, 100 * min_alike);
 }
 
 TEST(PictureRule, AllowsNoFractionOfAPixel) {

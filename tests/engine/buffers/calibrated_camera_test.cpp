@@ -1,5 +1,5 @@
-// Cameras as computer vision holds them: points fall on the pixels that the pinhole formula names, at their
-// own distances.
+// Calibrated cameras, as in computer vision: points are drawn at the pixel of the pinhole formula, with their
+// view depth.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ constexpr Intrinsics kIntrinsics{
     .fx = 310.5, .fy = 290.25, .cx = 170.3, .cy = 101.8, .width = 320, .height = 240};
 const FrameBufferFormat kFormat{.width = 320, .height = 240, .depth = DepthFormat::unorm32};
 
-// The matrix that is given, applied as on paper.
+// Matrix times point, by the textbook formula.
 std::array<double, 3> in_camera(const Matrix& m, const std::array<double, 3>& p) {
   std::array<double, 3> out{};
   for (std::size_t row = 0; row < 3; ++row)
@@ -27,13 +27,13 @@ std::array<double, 3> in_camera(const Matrix& m, const std::array<double, 3>& p)
 
 class CalibratedCamera : public testing::TestWithParam<std::tuple<CameraAxes, bool>> {};
 
-TEST_P(CalibratedCamera, PutsPointsOnTheirPixelsAtTheirDistances) {
+TEST_P(CalibratedCamera, DrawsPointsAtTheirPixelAndDepth) {
   const auto [axes, reversed] = GetParam();
   const Matrix extrinsics = translate(0.1, -0.2, axes == CameraAxes::opencv ? 3 : -3) * rotate(25, 1, 2, -1);
   const Camera camera = calibrated_camera(kIntrinsics, extrinsics, 0.5, 9, axes, reversed);
   Random random(8);
   Renderer renderer({.threads = 1});
-  int seen = 0;
+  int checked = 0;
   for (int round = 0; round < 300; ++round) {
     const std::array<double, 3> p{random.between(-1.5f, 1.5f), random.between(-1, 1),
                                   random.between(-1.5f, 1.5f)};
@@ -44,13 +44,12 @@ TEST_P(CalibratedCamera, PutsPointsOnTheirPixelsAtTheirDistances) {
     const double column = std::floor(u + 0.5), row = std::floor(v + 0.5);
     const bool near_border = std::max(std::abs(u - column), std::abs(v - row)) > 0.45;
     if (near_border || column < 0 || column >= 320 || row < 0 || row >= 240) continue;
-    // A tiny tetrahedron around the point, smaller than the distance to the pixel's border but around its
-    // centre: so move it there.
-    const double at_u = column, at_v = row, z = c[2];
-    std::array<double, 3> centre{(at_u - kIntrinsics.cx) / kIntrinsics.fx * z,
-                                 (at_v - kIntrinsics.cy) / kIntrinsics.fy * z, z};
+    // A triangle much smaller than a pixel, moved to the pixel's centre so that it covers that pixel alone.
+    const double z = c[2];
+    std::array<double, 3> centre{(column - kIntrinsics.cx) / kIntrinsics.fx * z,
+                                 (row - kIntrinsics.cy) / kIntrinsics.fy * z, z};
     if (axes == CameraAxes::opengl) centre[1] = -centre[1], centre[2] = -centre[2];
-    // Back to the world: the extrinsic matrix is rigid.
+    // Back to world space: the extrinsic matrix is rigid.
     MeshData mesh;
     const double size = 0.2 * z / kIntrinsics.fx;  // a fifth of a pixel
     const double offsets[3][2] = {{-size, -size}, {2 * size, -size}, {-size, 2 * size}};
@@ -81,29 +80,29 @@ TEST_P(CalibratedCamera, PutsPointsOnTheirPixelsAtTheirDistances) {
       if (expected) ASSERT_NEAR(depth[i], z, 1e-5);
       else ASSERT_EQ(depth[i], -1.0f);
     }
-    ++seen;
+    ++checked;
   }
-  EXPECT_GT(seen, 60);
+  EXPECT_GT(checked, 60);
 }
 
 INSTANTIATE_TEST_SUITE_P(Axes, CalibratedCamera,
                          testing::Combine(testing::Values(CameraAxes::opencv, CameraAxes::opengl),
                                           testing::Bool()));
 
-TEST(CalibratedCameraErrors, NameWhatIsOutOfRange) {
-  const auto says = [](Intrinsics i, double near, double far) {
+TEST(CalibratedCameraErrors, NameTheFieldOutOfRange) {
+  const auto message = [](Intrinsics i, double near, double far) {
     return error_of([&] { calibrated_camera(i, {}, near, far); }).value_or("");
   };
   Intrinsics i = kIntrinsics;
   i.fx = 0;
-  EXPECT_THAT(says(i, 1, 2), testing::HasSubstr("focal length is 0"));
+  EXPECT_THAT(message(i, 1, 2), testing::HasSubstr("focal length is 0"));
   i = kIntrinsics;
   i.cy = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(says(i, 1, 2), testing::HasSubstr("principal point"));
+  EXPECT_THAT(message(i, 1, 2), testing::HasSubstr("principal point"));
   i = kIntrinsics;
   i.height = 0;
-  EXPECT_THAT(says(i, 1, 2), testing::HasSubstr("320x0"));
-  EXPECT_THAT(says(kIntrinsics, 2, 2), testing::HasSubstr("near is 2"));
+  EXPECT_THAT(message(i, 1, 2), testing::HasSubstr("320x0"));
+  EXPECT_THAT(message(kIntrinsics, 2, 2), testing::HasSubstr("near is 2"));
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// Scan-out and read-back write the pixels of the picture and nothing else, in either byte order, whichever
-// way the rows go.
+// Scan-out and read-back write exactly the pixels of the picture, in either byte order and either row order.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +14,8 @@ constexpr std::uint8_t kUntouched = 0xa7;
 
 struct Layout {
   const char* what;
-  std::ptrdiff_t extra_bytes;  ///< beyond a row's pixels
-  std::size_t offset;          ///< of the first byte from an aligned address
+  std::ptrdiff_t extra_bytes;  ///< gap after the pixels of a row
+  std::size_t offset;          ///< bytes from an aligned address to the first pixel
   bool upwards;
   PixelOrder order;
 };
@@ -41,13 +40,14 @@ const FrameBufferFormat kFormats[] = {
 
 std::vector<InstructionSet> sets() { return available_instruction_sets(); }
 
-// Memory around and between the rows, all of one value.
+// An image whose memory, including the gaps around and between its rows, starts with one value.
 struct GuardedImage {
   int width, height;
   Layout layout;
-  std::ptrdiff_t row_bytes, stride;
+  std::ptrdiff_t row_bytes;
+  std::ptrdiff_t stride;
   std::vector<std::uint8_t> memory;
-  std::uint8_t* first;  ///< of the lowest address
+  std::uint8_t* first;  ///< byte with the lowest address
 
   GuardedImage(const FrameBufferFormat& format, const Layout& l)
       : width(format.width),
@@ -88,7 +88,8 @@ TEST(FrameBufferImages, ScanOutAndReadBackWriteExactlyThePicture) {
       for (const Layout& layout : kLayouts) {
         SCOPED_TRACE(std::string(layout.what) + ", " + std::string(name(set)) + ", width " +
                      std::to_string(format.width));
-        GuardedImage read(format, layout), shown(format, layout);
+        GuardedImage read(format, layout);
+        GuardedImage shown(format, layout);
         buffer.read_color(read.target());
         read.expect_picture(plain.bytes);
         FrameBuffer other(format);
@@ -101,8 +102,8 @@ TEST(FrameBufferImages, ScanOutAndReadBackWriteExactlyThePicture) {
   }
 }
 
-// Tiles that nothing touches are scanned out by a shorter way.
-TEST(FrameBufferImages, AFrameOfClearsAloneIsScannedOutToo) {
+// Tiles without draws take a shorter scan-out path.
+TEST(FrameBufferImages, ScanOutShowsAFrameOfClearsAlone) {
   for (const FrameBufferFormat& format : kFormats)
     for (const Layout& layout : kLayouts) {
       SCOPED_TRACE(std::string(layout.what) + ", width " + std::to_string(format.width));
@@ -124,7 +125,7 @@ TEST(FrameBufferImages, AFrameOfClearsAloneIsScannedOutToo) {
     }
 }
 
-TEST(FrameBufferImages, AnEmptyFrameShowsWhatIsStored) {
+TEST(FrameBufferImages, EmptyFrameShowsTheStoredPicture) {
   for (const FrameBufferFormat& format : kFormats) {
     Renderer renderer({.threads = 1});
     FrameBuffer buffer(format);
@@ -132,18 +133,20 @@ TEST(FrameBufferImages, AnEmptyFrameShowsWhatIsStored) {
     Frame frame(buffer);
     random.record(frame);
     renderer.finish(frame);
-    Image plain(buffer), shown(buffer), shown_again(buffer);
+    Image plain(buffer);
+    Image shown(buffer);
+    Image shown_again(buffer);
     buffer.read_color(plain.target());
     renderer.finish(frame, shown.target());
     EXPECT_EQ(shown.bytes, plain.bytes);
     renderer.finish(frame, shown_again.target());
-    EXPECT_EQ(shown_again.bytes, plain.bytes) << "showing it does not lose it";
+    EXPECT_EQ(shown_again.bytes, plain.bytes) << "scan-out keeps the stored picture";
     buffer.read_color(shown.target());
     EXPECT_EQ(shown.bytes, plain.bytes);
   }
 }
 
-TEST(FrameBufferImages, HaveTheirTopRowFirst) {
+TEST(FrameBufferImages, FirstRowIsTheTopRow) {
   FrameBuffer buffer({.width = 3, .height = 2});
   const MeshData upper = rectangle(-1, 0, 1, 1);
   Frame frame(buffer);

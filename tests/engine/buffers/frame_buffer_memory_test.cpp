@@ -1,4 +1,4 @@
-// What a frame buffer holds after a frame, what is lost, and how much memory it takes for it.
+// Contents of a frame buffer after a frame: what is kept, what is discarded, and how much memory it takes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,19 +42,19 @@ class FrameBufferMemory : public testing::Test {
 };
 using Flags = std::vector<bool>;  // colour, depth, stencil
 
-TEST_F(FrameBufferMemory, ANewBufferTakesNone) {
+TEST_F(FrameBufferMemory, NewBufferAllocatesNothing) {
   EXPECT_EQ(allocated(), (Flags{false, false, false}));
   EXPECT_EQ(readable(), (Flags{true, true, true}));
-  EXPECT_EQ(allocated(), (Flags{false, false, false})) << "reading needs no planes either";
+  EXPECT_EQ(allocated(), (Flags{false, false, false})) << "reading allocates no planes";
 }
 
-TEST_F(FrameBufferMemory, LookingAtAPlaneAllocatesItsBuffer) {
+TEST_F(FrameBufferMemory, ReadingAPlaneAllocatesItsBuffer) {
   buffer.plane(Buffer::stencil, 0);
   EXPECT_EQ(allocated(), (Flags{false, false, true}));
   EXPECT_GE(buffer.allocated_bytes(Buffer::stencil), 8u * 60 * 13);
 }
 
-TEST_F(FrameBufferMemory, AFrameThatIsOnlyScannedOutTakesNone) {
+TEST_F(FrameBufferMemory, ScannedOutFrameAllocatesNothing) {
   frame.clear({.color = Color{0, 0, 1, 1}, .depth = 1.0, .stencil = 0u});
   frame.draw(kMesh.view(), {});
   renderer.finish(frame, image.target());
@@ -62,7 +62,7 @@ TEST_F(FrameBufferMemory, AFrameThatIsOnlyScannedOutTakesNone) {
   EXPECT_EQ(readable(), (Flags{false, false, false})) << "nothing was kept";
 }
 
-TEST_F(FrameBufferMemory, ADrawWithoutDepthTakesNoDepthPlanes) {
+TEST_F(FrameBufferMemory, DrawWithoutDepthAllocatesNoDepthPlanes) {
   DrawState state;
   state.depth.enabled = false;
   frame.draw(kMesh.view(), state);
@@ -73,7 +73,7 @@ TEST_F(FrameBufferMemory, ADrawWithoutDepthTakesNoDepthPlanes) {
   EXPECT_EQ(readable(), (Flags{true, true, true}));
 }
 
-TEST_F(FrameBufferMemory, ADrawOfDepthAloneTakesNoColorPlanes) {
+TEST_F(FrameBufferMemory, DrawOfDepthAloneAllocatesNoColorPlanes) {
   DrawState state;
   state.color_mask = {false, false, false, false};
   frame.draw(kMesh.view(), state);
@@ -81,7 +81,7 @@ TEST_F(FrameBufferMemory, ADrawOfDepthAloneTakesNoColorPlanes) {
   EXPECT_EQ(allocated(), (Flags{false, true, false}));
 }
 
-TEST_F(FrameBufferMemory, WholeClearsNeedNoPlanes) {
+TEST_F(FrameBufferMemory, FullClearsNeedNoPlanes) {
   frame.clear({.color = Color{0.2f, 0.4f, 0.6f, 1}, .depth = 0.5, .stencil = 9u});
   renderer.finish(frame);
   EXPECT_EQ(allocated(), (Flags{false, false, false}));
@@ -90,7 +90,7 @@ TEST_F(FrameBufferMemory, WholeClearsNeedNoPlanes) {
   EXPECT_EQ(stencil_values(buffer)[5], 9);
 }
 
-TEST_F(FrameBufferMemory, AWholeClearGivesThePlanesBack) {
+TEST_F(FrameBufferMemory, FullClearFreesThePlanes) {
   frame.draw(kMesh.view(), {});
   renderer.finish(frame);
   EXPECT_EQ(allocated(), (Flags{true, true, false}));
@@ -99,7 +99,7 @@ TEST_F(FrameBufferMemory, AWholeClearGivesThePlanesBack) {
   EXPECT_EQ(allocated(), (Flags{false, false, false}));
 }
 
-TEST_F(FrameBufferMemory, AnEmptyFrameChangesNothing) {
+TEST_F(FrameBufferMemory, EmptyFrameChangesNothing) {
   frame.draw(kMesh.view(), {});
   renderer.finish(frame);
   const Fingerprint before = fingerprint(buffer);
@@ -107,7 +107,7 @@ TEST_F(FrameBufferMemory, AnEmptyFrameChangesNothing) {
   EXPECT_EQ(fingerprint(buffer), before);
 }
 
-TEST_F(FrameBufferMemory, AFrameStartsFromWhatIsStored) {
+TEST_F(FrameBufferMemory, FrameStartsFromTheStoredPicture) {
   frame.clear({.color = Color{0, 0, 1, 1}});
   renderer.finish(frame);
   DrawState in_front = unlit({1, 0, 0, 1});
@@ -121,7 +121,7 @@ TEST_F(FrameBufferMemory, AFrameStartsFromWhatIsStored) {
   EXPECT_EQ(words[30 * 100 + 50], 0xff0000u) << "behind the red of the second";
 }
 
-TEST_F(FrameBufferMemory, LostBuffersNameKeep) {
+TEST_F(FrameBufferMemory, ErrorsOfDiscardedBuffersNameKeep) {
   frame.clear({.color = Color{}, .depth = 1.0, .stencil = 0u});
   frame.draw(kMesh.view(), {});
   renderer.finish(frame, image.target());
@@ -134,7 +134,7 @@ TEST_F(FrameBufferMemory, LostBuffersNameKeep) {
   EXPECT_THAT(error_of([&] { buffer.read_color(image.target()); }).value_or(""), HasSubstr("keep"));
 }
 
-TEST_F(FrameBufferMemory, ExplicitKeepHoldsWhatItNames) {
+TEST_F(FrameBufferMemory, ExplicitKeepStoresTheNamedBuffers) {
   frame.clear({.color = Color{}, .depth = 1.0, .stencil = 3u});
   frame.draw(kMesh.view(), {});
   frame.keep({Buffer::color, Buffer::stencil});
@@ -152,7 +152,7 @@ TEST_F(FrameBufferMemory, ExplicitKeepHoldsWhatItNames) {
   EXPECT_EQ(readable(), (Flags{false, true, true})) << "without an image too; the untouched stencil stays";
 }
 
-TEST_F(FrameBufferMemory, KeepHoldsForOneFrame) {
+TEST_F(FrameBufferMemory, KeepAppliesToOneFrame) {
   frame.clear({.color = Color{}, .depth = 1.0});
   frame.keep({});
   renderer.finish(frame);
@@ -162,7 +162,7 @@ TEST_F(FrameBufferMemory, KeepHoldsForOneFrame) {
   EXPECT_EQ(readable(), (Flags{true, true, true}));
 }
 
-TEST_F(FrameBufferMemory, AFrameCannotStartFromALostBuffer) {
+TEST_F(FrameBufferMemory, FrameCannotStartFromADiscardedBuffer) {
   frame.clear({.color = Color{}, .depth = 1.0});
   frame.draw(kMesh.view(), {});
   renderer.finish(frame, image.target());
@@ -174,7 +174,7 @@ TEST_F(FrameBufferMemory, AFrameCannotStartFromALostBuffer) {
 
   Frame shown(buffer);
   EXPECT_THAT(error_of([&] { renderer.finish(shown, image.target()); }).value_or(""), HasSubstr("colour"))
-      << "an empty frame shows a lost picture";
+      << "an empty frame shows a discarded picture";
 
   Frame after_color(buffer);
   after_color.clear({.color = Color{}});
@@ -194,10 +194,11 @@ TEST_F(FrameBufferMemory, AFrameCannotStartFromALostBuffer) {
   Frame whole(buffer);
   whole.clear({.color = Color{}, .depth = 1.0, .scissor = Rect{-1, -1, 200, 200}});
   whole.draw(kMesh.view(), {});
-  EXPECT_FALSE(error_of([&] { renderer.finish(whole); })) << "a scissor around everything clears the whole";
+  EXPECT_FALSE(error_of([&] { renderer.finish(whole); }))
+      << "a scissor that contains the whole buffer makes a full clear";
 }
 
-TEST_F(FrameBufferMemory, ALostStencilBufferIsNamedBeforeAPixelIsTouched) {
+TEST_F(FrameBufferMemory, DiscardedStencilIsReportedBeforeAPixelIsTouched) {
   frame.clear({.stencil = 1u});
   frame.keep({});
   renderer.finish(frame);
@@ -211,7 +212,7 @@ TEST_F(FrameBufferMemory, ALostStencilBufferIsNamedBeforeAPixelIsTouched) {
   EXPECT_EQ(frame.draw_count(), 1u);
 }
 
-TEST_F(FrameBufferMemory, WithoutKeepingTheStencilBufferItNeedNotBeThere) {
+TEST_F(FrameBufferMemory, UnkeptStencilNeedNotExist) {
   for (int round = 0; round < 2; ++round) {
     frame.clear({.color = Color{}, .stencil = 1u});
     frame.keep({Buffer::color});

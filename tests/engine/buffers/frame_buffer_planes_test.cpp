@@ -1,5 +1,4 @@
-// Planes are literal: bit 7 - x % 8 of byte x / 8 of a row of plane k is bit k of the pixel's word, whatever
-// was drawn.
+// Layout of planes: bit 7 - x % 8 of byte x / 8 in a row of plane k is bit k of the pixel's stored value.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +16,7 @@ int bit_at(const PlaneView& plane, int x, int y) {
   return plane.bits[y * plane.stride_bytes + x / 8] >> (7 - x % 8) & 1;
 }
 
-// Bits are the words'; what lies beyond a row's last pixel is 0.
+// Plane bits equal the bits of the stored values; padding after a row's last pixel is 0.
 void expect_literal_planes(const FrameBuffer& buffer, Buffer which, const std::vector<std::uint32_t>& words) {
   const int width = buffer.format().width, height = buffer.format().height;
   for (int k = 0; k < buffer.plane_count(which); ++k) {
@@ -25,7 +24,8 @@ void expect_literal_planes(const FrameBuffer& buffer, Buffer which, const std::v
     ASSERT_EQ(plane.width, width);
     ASSERT_EQ(plane.height, height);
     ASSERT_GE(plane.stride_bytes, (width + 7) / 8);
-    int wrong = 0, set_beyond = 0;
+    int wrong = 0;
+    int set_beyond = 0;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < 8 * static_cast<int>(plane.stride_bytes); ++x) {
         if (x < width)
@@ -51,7 +51,7 @@ FrameBufferFormat format_of(ColorMode mode, int bits, DepthFormat depth = DepthF
       .width = 139, .height = 75, .color_mode = mode, .color_bits = bits, .depth = depth, .stencil_bits = 0};
 }
 
-TEST(FrameBufferPlanes, AreTheBitsOfTheWordsInEveryColorDepth) {
+TEST(FrameBufferPlanes, HoldTheBitsOfColorsAtEveryColorDepth) {
   for (int bits = 1; bits <= 24; ++bits) {
     SCOPED_TRACE(std::to_string(bits) + " bits");
     FrameBuffer buffer(format_of(ColorMode::rgb, bits));
@@ -61,7 +61,7 @@ TEST(FrameBufferPlanes, AreTheBitsOfTheWordsInEveryColorDepth) {
   }
 }
 
-TEST(FrameBufferPlanes, AreTheBitsOfTheIndicesInEveryIndexMode) {
+TEST(FrameBufferPlanes, HoldTheBitsOfIndicesInEveryIndexMode) {
   for (int bits = 1; bits <= 24; ++bits) {
     SCOPED_TRACE(std::to_string(bits) + " bits");
     FrameBuffer buffer(format_of(ColorMode::index, bits));
@@ -70,7 +70,7 @@ TEST(FrameBufferPlanes, AreTheBitsOfTheIndicesInEveryIndexMode) {
   }
 }
 
-TEST(FrameBufferPlanes, AreTheBitsOfTheDepthsInEveryFormat) {
+TEST(FrameBufferPlanes, HoldTheBitsOfDepthsInEveryFormat) {
   const std::pair<DepthFormat, int> formats[] = {{DepthFormat::none, 0},
                                                  {DepthFormat::unorm16, 16},
                                                  {DepthFormat::unorm24, 24},
@@ -96,7 +96,7 @@ TEST(FrameBufferPlanes, AreTheBitsOfTheDepthsInEveryFormat) {
   }
 }
 
-TEST(FrameBufferPlanes, OfTheStencilBufferHoldWhatWasCleared) {
+TEST(FrameBufferPlanes, StencilPlanesHoldTheClearValue) {
   FrameBuffer buffer({.width = 21, .height = 9, .stencil_bits = 5});
   EXPECT_EQ(buffer.plane_count(Buffer::stencil), 5);
   Frame frame(buffer);
@@ -113,7 +113,7 @@ TEST(FrameBufferPlanes, OfTheStencilBufferHoldWhatWasCleared) {
   expect_literal_planes(buffer, Buffer::stencil, {values.begin(), values.end()});
 }
 
-TEST(FrameBufferPlanes, OfANewBufferHoldColor0Depth1Stencil0) {
+TEST(FrameBufferPlanes, NewBufferHoldsColor0Depth1Stencil0) {
   for (const DepthFormat depth :
        {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32}) {
     const FrameBuffer buffer({.width = 33, .height = 5, .depth = depth});
@@ -127,21 +127,23 @@ TEST(FrameBufferPlanes, OfANewBufferHoldColor0Depth1Stencil0) {
   }
 }
 
-// The split of the bits and the rounding, written out once more.
+// Independent copy of the bit split and the rounding.
 std::uint32_t level(double c, int bits) {
   return static_cast<std::uint32_t>(std::floor(c * ((1 << bits) - 1) + 0.5));
 }
 std::uint32_t expected_word(const Color& c, int bits) {
   const double r = c.r, g = c.g, b = c.b;
   if (bits <= 2) return level(0.30 * r + 0.59 * g + 0.11 * b, bits);
-  const int each = bits / 3, g_bits = each + (bits % 3 > 0), r_bits = each + (bits % 3 > 1);
+  const int each = bits / 3;
+  const int g_bits = each + (bits % 3 > 0);
+  const int r_bits = each + (bits % 3 > 1);
   return level(r, r_bits) << (g_bits + each) | level(g, g_bits) << each | level(b, each);
 }
 std::uint8_t expected_shown(std::uint32_t level, int bits) {
   return static_cast<std::uint8_t>(std::lround(255.0 * level / ((1 << bits) - 1)));
 }
 
-TEST(FrameBufferColors, AreSplitAndRoundedAlikeByClearsDrawsAndScanOut) {
+TEST(FrameBufferColors, SplitAndRoundAlikeInClearsDrawsAndScanOut) {
   Renderer renderer({.threads = 1});
   const MeshData all = whole_window();
   Random random(3);
@@ -162,7 +164,9 @@ TEST(FrameBufferColors, AreSplitAndRoundedAlikeByClearsDrawsAndScanOut) {
 
       Image image(buffer);
       buffer.read_color(image.target());
-      const int each = bits / 3, g_bits = each + (bits % 3 > 0), r_bits = each + (bits % 3 > 1);
+      const int each = bits / 3;
+      const int g_bits = each + (bits % 3 > 0);
+      const int r_bits = each + (bits % 3 > 1);
       std::uint8_t shown[4] = {0, 0, 0, 255};
       if (bits <= 2) {
         std::fill_n(shown, 3, expected_shown(expected, bits));
@@ -175,7 +179,7 @@ TEST(FrameBufferColors, AreSplitAndRoundedAlikeByClearsDrawsAndScanOut) {
     }
 }
 
-TEST(FrameBufferColors, OfAnIndexBufferGoToTheNearestEntryAndUnsetEntriesShowBlack) {
+TEST(FrameBufferColors, IndexBufferStoresTheNearestEntryAndShowsUnsetEntriesBlack) {
   FrameBuffer buffer({.width = 4,
                       .height = 3,
                       .color_mode = ColorMode::index,
@@ -192,7 +196,7 @@ TEST(FrameBufferColors, OfAnIndexBufferGoToTheNearestEntryAndUnsetEntriesShowBla
   EXPECT_EQ(word_of_clear({.color = Color{0.9f, 0.1f, 0.1f, 1}}), 1u) << "ties go to the lowest index";
   EXPECT_EQ(word_of_clear({.color = Color{0.1f, 0.1f, 0.5f, 1}}), 2u);
   EXPECT_EQ(word_of_clear({.color = Color{0, 0.1f, 0, 1}}), 2u)
-      << "nobody chose the entries that are not set, black as they are";
+      << "unset entries show black but are never chosen";
   EXPECT_EQ(word_of_clear({.index = 7u}), 7u);
   Image image(buffer);
   buffer.read_color(image.target());

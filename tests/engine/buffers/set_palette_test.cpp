@@ -1,4 +1,4 @@
-// Palettes that change under a picture.
+// Palettes that change after the picture was drawn.
 #include <limits>
 
 #include "tests/engine/frame/index_pictures.h"
@@ -16,13 +16,15 @@ std::vector<std::uint8_t> shown(const FrameBuffer& buffer) {
   return image.bytes;
 }
 
-TEST(Palette, ChangesWhatIsShownAndNotWhatIsStored) {
+TEST(SetPalette, ChangesTheShownColorsAndNotTheStoredIndices) {
   FrameBuffer buffer(kIndexFormat);
   Frame frame(buffer);
   frame.clear({.index = 2});
   Renderer renderer({.threads = 1});
   renderer.finish(frame);
-  const Color red{1, 0, 0, 1}, green{0, 1, 0, 1}, blue{0, 0, 1, 1};
+  const Color red{1, 0, 0, 1};
+  const Color green{0, 1, 0, 1};
+  const Color blue{0, 0, 1, 1};
   const std::vector<Color> first{red, green, blue}, second{blue, red, green};
   buffer.set_palette(first);
   EXPECT_EQ(shown(buffer)[2], 255);
@@ -32,7 +34,7 @@ TEST(Palette, ChangesWhatIsShownAndNotWhatIsStored) {
   EXPECT_THAT(packed_colors(buffer), Each(2u));
   EXPECT_EQ(buffer.format().palette.size(), 3u);
 
-  // Colours find the entries of the palette in force when the frame is finished.
+  // Colours are matched with the palette that is set when the frame is finished.
   const MeshData mesh = whole_window();
   DrawState over = unlit(red);
   over.depth.enabled = false;
@@ -51,8 +53,9 @@ TEST(Palette, ChangesWhatIsShownAndNotWhatIsStored) {
   EXPECT_THAT(packed_colors(buffer), Each(4u)) << "of ega16";
 }
 
-TEST(Palette, ErrorsChangeNothing) {
-  FrameBuffer buffer(kIndexFormat), rgb({.width = 4, .height = 4});
+TEST(SetPalette, ErrorsChangeNothing) {
+  FrameBuffer buffer(kIndexFormat);
+  FrameBuffer rgb({.width = 4, .height = 4});
   Frame frame(buffer);
   frame.clear({.index = 9});
   Renderer({.threads = 1}).finish(frame);

@@ -1,5 +1,4 @@
-// The accumulation buffer as callers see it: what frames do to it, what is kept, where it stands, what is
-// refused.
+// The accumulation buffer through the public interface: operations, keeping, planes and errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +28,7 @@ std::vector<float> accumulated(const FrameBuffer& buffer) {
   buffer.read_accumulation(rgba);
   return rgba;
 }
-// Component c of the pixel at x, y, y from the top.
+// Component c of the pixel at (x, y), with y counted from the top.
 float at(const FrameBuffer& buffer, int x, int y, std::size_t c) {
   return accumulated(buffer)[4 * static_cast<std::size_t>(y * buffer.format().width + x) + c];
 }
@@ -51,7 +50,7 @@ class Accumulating : public testing::Test {
   Frame frame{buffer};
 };
 
-TEST_F(Accumulating, BlursWhatMovesBetweenTwoFrames) {
+TEST_F(Accumulating, BlursMotionBetweenTwoFrames) {
   const MeshData left = rectangle(-0.8f, -0.5f, 0.2f, 0.5f), right = rectangle(-0.2f, -0.5f, 0.8f, 0.5f);
   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
   frame.draw(left.view(), unlit({1, 1, 1, 1}));
@@ -64,13 +63,13 @@ TEST_F(Accumulating, BlursWhatMovesBetweenTwoFrames) {
   frame.accumulate({.op = AccumOp::return_color});
   frame.keep({Buffer::color});
   renderer.finish(frame);
-  EXPECT_EQ(word_at(buffer, 30, 35), 0xff808080u) << "the first alone";
+  EXPECT_EQ(word_at(buffer, 30, 35), 0xff808080u) << "first frame only";
   EXPECT_EQ(word_at(buffer, 66, 35), 0xffffffffu) << "both";
-  EXPECT_EQ(word_at(buffer, 100, 35), 0xff808080u) << "the second alone";
+  EXPECT_EQ(word_at(buffer, 100, 35), 0xff808080u) << "second frame only";
   EXPECT_EQ(word_at(buffer, 5, 35), 0xff000000u) << "neither";
 }
 
-TEST_F(Accumulating, ObeysTheScissorToThePixel) {
+TEST_F(Accumulating, RespectsTheScissorToThePixel) {
   frame.clear({.color = Color{1, 0.5f, 0, 1}, .accumulation = Color{0.25f, 0.25f, 0.25f, 0.25f}});
   frame.clear({.accumulation = Color{-1, -1, -1, -1}, .scissor = Rect{61, 3, 7, 5}});
   frame.accumulate({.op = AccumOp::add, .value = 0.5, .scissor = Rect{30, 10, 41, 31}});
@@ -80,14 +79,16 @@ TEST_F(Accumulating, ObeysTheScissorToThePixel) {
   std::size_t i = 0;
   for (int y = 0; y < kFormat.height; ++y)
     for (int x = 0; x < kFormat.width; ++x) {
-      const bool added = x >= 30 && x < 71 && y >= 30 && y < 61,
-                 cleared = x >= 61 && x < 68 && y >= 63 && y < 68;
-      for (int c = 0; c < 4; ++c)
-        ASSERT_NEAR(rgba[i++], added ? 0.75 : cleared ? -1 : 0.25, 1e-4) << x << ", " << y;
+      const bool added = x >= 30 && x < 71 && y >= 30 && y < 61;
+      const bool cleared = x >= 61 && x < 68 && y >= 63 && y < 68;
+      double expected = 0.25;
+      if (cleared) expected = -1;
+      if (added) expected = 0.75;
+      for (int c = 0; c < 4; ++c) ASSERT_NEAR(rgba[i++], expected, 1e-4) << x << ", " << y;
     }
 }
 
-TEST_F(Accumulating, HasThePlanesOfItsComponentsOneAfterTheOther) {
+TEST_F(Accumulating, StoresThePlanesOfItsComponentsInOrder) {
   frame.clear({.accumulation = Color{0.25f, -0.25f, 1, -1}});
   renderer.finish(frame);
   EXPECT_EQ(buffer.allocated_bytes(Buffer::accumulation), 0u) << "one colour needs no planes";
@@ -103,13 +104,13 @@ TEST_F(Accumulating, HasThePlanesOfItsComponentsOneAfterTheOther) {
               HasSubstr("plane 64 of the accumulation buffer, which has planes 0 to 63"));
 }
 
-TEST_F(Accumulating, RunsInTheOrderOfRecording) {
+TEST_F(Accumulating, RunsInRecordingOrder) {
   // Clears and accumulations before the same draw, and after the last.
   const MeshData mesh = rectangle(-1, -1, 0, 1);
   frame.clear({.color = Color{1, 1, 1, 1}});
   frame.accumulate({.op = AccumOp::load, .value = 0.5});
   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
-  frame.accumulate({.value = 0.25});  // of black: alpha alone
+  frame.accumulate({.value = 0.25});  // adds black, so only alpha changes
   frame.accumulate({.op = AccumOp::mult, .value = 0.5});
   frame.clear({.color = Color{0, 0, 1, 1}});
   frame.draw(mesh.view(), unlit({0, 1, 0, 1}));
@@ -139,7 +140,7 @@ TEST_F(Accumulating, ReachesTilesWithoutTriangles) {
   EXPECT_EQ(buffer.allocated_bytes(Buffer::color) + buffer.allocated_bytes(Buffer::accumulation), 0u);
 }
 
-TEST_F(Accumulating, ReturnsThroughTheColorMask) {
+TEST_F(Accumulating, ReturnRespectsTheColorMask) {
   frame.clear({.color = Color{0, 0, 0, 0}, .accumulation = Color{1, 1, 1, 1}});
   frame.accumulate({.op = AccumOp::return_color,
                     .scissor = Rect{0, 0, 40, 71},
@@ -155,7 +156,7 @@ TEST_F(Accumulating, ReturnsThroughTheColorMask) {
   EXPECT_EQ(word_at(buffer, 130, 20), 0u) << "no command";
 }
 
-TEST_F(Accumulating, ReturnsWithTheDitherOfEveryOtherWrite) {
+TEST_F(Accumulating, ReturnDithersLikeEveryOtherWrite) {
   for (const int color_bits : {2, 8, 24}) {
     FrameBuffer dithered({.width = 70,
                           .height = 41,
@@ -174,7 +175,7 @@ TEST_F(Accumulating, ReturnsWithTheDitherOfEveryOtherWrite) {
   }
 }
 
-TEST_F(Accumulating, ReadsAnAlphaOfOneWithoutAlphaPlanesAndGreyOfLuminance) {
+TEST_F(Accumulating, ReadsAlphaOneWithoutAlphaPlanesAndGreyFromLuminance) {
   FrameBuffer grey({.width = 20, .height = 20, .color_bits = 2, .accumulation_bits = 32});
   Frame greys(grey);
   greys.clear({.color = Color{0.7f, 0.7f, 0.7f, 0}});  // level 2 of 3
@@ -184,10 +185,11 @@ TEST_F(Accumulating, ReadsAnAlphaOfOneWithoutAlphaPlanesAndGreyOfLuminance) {
   EXPECT_NEAR(at(grey, 3, 3, 3), -0.5, 1e-7);
 }
 
-TEST_F(Accumulating, TakesNoMemoryWhereNothingAccumulates) {
+TEST_F(Accumulating, AllocatesNothingIfNothingAccumulates) {
   Image image(buffer);
   frame.clear({.color = Color{0, 0, 0, 1}, .accumulation = Color{1, 1, 1, 1}});
-  frame.clear({.color = Color{1, 0, 0, 1}, .scissor = Rect{5, 5, 9, 9}});  // so that the tiles are worked on
+  // A partial clear, so that tiles are processed.
+  frame.clear({.color = Color{1, 0, 0, 1}, .scissor = Rect{5, 5, 9, 9}});
   renderer.finish(frame, image.target());
   frame.clear({.accumulation = Color{0, 0, 0, 0}});
   renderer.finish(frame);
@@ -201,10 +203,10 @@ TEST_F(Accumulating, TakesNoMemoryWhereNothingAccumulates) {
   EXPECT_NEAR(at(buffer, 132, 70, 3), 0.5, 1e-4);
   frame.clear({.accumulation = Color{0, 0, 0, 0}});
   renderer.finish(frame);
-  EXPECT_EQ(buffer.allocated_bytes(Buffer::accumulation), 0u) << "a clear of the whole gives it back";
+  EXPECT_EQ(buffer.allocated_bytes(Buffer::accumulation), 0u) << "a full clear frees the planes";
 }
 
-TEST_F(Accumulating, LosesWhatIsNotKeptAndSaysSo) {
+TEST_F(Accumulating, DiscardedContentIsReported) {
   Image image(buffer);
   frame.clear({.color = Color{1, 0, 0, 1}});
   frame.accumulate({.value = 0.5});
@@ -225,9 +227,9 @@ TEST_F(Accumulating, LosesWhatIsNotKeptAndSaysSo) {
   frame.accumulate({.op = AccumOp::return_color, .scissor = Rect{0, 0, 5, 5}});
   EXPECT_THAT(error_of([&] { renderer.finish(frame); }).value_or(""),
               HasSubstr("starts from the colour buffer"))
-      << "a part of it stays";
+      << "part of it remains";
   frame.reset();
-  // Nothing of either is looked at before it is replaced.
+  // Both are replaced before anything reads them.
   frame.clear({.accumulation = Color{0.5f, 0.5f, 0.5f, 0.5f}});
   frame.accumulate({.op = AccumOp::return_color});
   frame.accumulate({.op = AccumOp::load, .value = -1});
@@ -242,7 +244,7 @@ TEST_F(Accumulating, LosesWhatIsNotKeptAndSaysSo) {
   EXPECT_NEAR(at(buffer, 132, 70, 2), 64 / 255.0, 1e-4);
 }
 
-TEST_F(Accumulating, LeavesCapturesAlone) {
+TEST_F(Accumulating, DoesNotChangeCaptures) {
   std::vector<std::uint32_t> draw_ids(pixel_count(buffer));
   const MeshData mesh = rectangle(-1, -1, 0, 1);
   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0, .accumulation = Color{1, 1, 1, 1}});
@@ -257,7 +259,7 @@ TEST_F(Accumulating, LeavesCapturesAlone) {
   EXPECT_NEAR(at(buffer, 10, 0, 1), 0.5, 1e-4);
 }
 
-// Draws and commands of every kind, in an order that matters.
+// Draws and commands of every kind whose order affects the result.
 std::vector<std::function<void(Frame&)>> commands_of(const RandomFrame& scene) {
   const auto draw = [&scene](Color color, double x, Shading shading) {
     return [&scene, color, x, shading](Frame& f) {
@@ -292,13 +294,13 @@ std::vector<std::function<void(Frame&)>> commands_of(const RandomFrame& scene) {
           accum({.op = AccumOp::return_color, .value = 0.8, .scissor = Rect{60, 0, 60, 71}})};
 }
 
-TEST(Accumulation, GivesTheSameBitsForEveryTileSizeNumberOfThreadsAndInstructionSetAndHoweverTheFrameIsCut) {
+TEST(FrameAccumulation, BitsAreTheSameForEveryRendererOptionAndEverySplitOfTheFrame) {
   for (const int bits : {16, 32})
     for (const Dither dither : {Dither::none, Dither::bayer4}) {
       FrameBufferFormat format = with_bits(bits);
       format.dither = dither;
       if (dither == Dither::none)
-        format.alpha_bits = 0;  // nothing is left to do to fragments: shading is deferred
+        format.alpha_bits = 0;  // without operations after shading, so shading is deferred
       const RandomFrame scene(format, 150);
       std::optional<Fingerprint> expected;
       std::vector<std::uint64_t> expected_planes;
@@ -324,7 +326,7 @@ TEST(Accumulation, GivesTheSameBitsForEveryTileSizeNumberOfThreadsAndInstruction
     }
 }
 
-TEST(Accumulation, StandsInLentMemoryAfterStencil) {
+TEST(FrameAccumulation, FollowsStencilInCallerMemory) {
   for (const int bits : {16, 32}) {
     const FrameBufferFormat format = with_bits(bits);
     const std::size_t size = FrameBuffer::memory_bytes(format);
@@ -333,8 +335,9 @@ TEST(Accumulation, StandsInLentMemoryAfterStencil) {
         static_cast<std::byte*>(::operator new[](size, std::align_val_t{64})),
         [](std::byte* at) { ::operator delete[](at, std::align_val_t{64}); });
     std::fill_n(memory.get(), size, std::byte{0xcd});
-    FrameBuffer own(format), lent(format, {memory.get(), size});
-    EXPECT_EQ(plane_hashes(own), plane_hashes(lent)) << "a new one";
+    FrameBuffer own(format);
+    FrameBuffer lent(format, {memory.get(), size});
+    EXPECT_EQ(plane_hashes(own), plane_hashes(lent)) << "new buffer";
     Renderer renderer({.threads = 2});
     const RandomFrame scene(format, 50);
     for (FrameBuffer* buffer : {&own, &lent}) {
@@ -349,41 +352,45 @@ TEST(Accumulation, StandsInLentMemoryAfterStencil) {
     Frame frame(lent);
     frame.clear({.accumulation = Color{1, 0, 0, 0}});
     renderer.finish(frame);
-    EXPECT_EQ(*first, std::byte{0xff}) << "at once";
+    EXPECT_EQ(*first, std::byte{0xff}) << "clears are visible at once";
   }
 }
 
-TEST(Accumulation, IsRefusedWhereItCannotBe) {
-  const auto says = [](const std::function<void()>& act) { return error_of(act).value_or("no error"); };
-  EXPECT_THAT(says([] { FrameBuffer({.accumulation_bits = 8}); }),
+TEST(FrameAccumulation, InvalidUsesAreRefused) {
+  const auto message_of = [](const std::function<void()>& act) { return error_of(act).value_or("no error"); };
+  EXPECT_THAT(message_of([] { FrameBuffer({.accumulation_bits = 8}); }),
               HasSubstr("accumulation_bits is 8, must be 0, 16 or 32"));
-  EXPECT_THAT(
-      says([] { FrameBuffer({.color_mode = ColorMode::index, .color_bits = 8, .accumulation_bits = 16}); }),
-      HasSubstr("colour mode is index"));
-  FrameBuffer without({.width = 8, .height = 8}),
-      index({.width = 8, .height = 8, .color_mode = ColorMode::index, .color_bits = 8}),
-      grey({.width = 8, .height = 8, .color_bits = 2, .accumulation_bits = 16});
-  Frame none(without), indices(index), greys(grey);
-  EXPECT_THAT(says([&] { none.accumulate({}); }), HasSubstr("has no accumulation buffer"));
-  EXPECT_THAT(says([&] { none.clear({.accumulation = Color{}}); }), HasSubstr("has no accumulation buffer"));
-  EXPECT_THAT(says([&] { without.read_accumulation({}); }), HasSubstr("0 elements"));
+  EXPECT_THAT(message_of([] {
+                FrameBuffer({.color_mode = ColorMode::index, .color_bits = 8, .accumulation_bits = 16});
+              }),
+              HasSubstr("colour mode is index"));
+  FrameBuffer without({.width = 8, .height = 8});
+  FrameBuffer index({.width = 8, .height = 8, .color_mode = ColorMode::index, .color_bits = 8});
+  FrameBuffer grey({.width = 8, .height = 8, .color_bits = 2, .accumulation_bits = 16});
+  Frame none(without);
+  Frame indices(index);
+  Frame greys(grey);
+  EXPECT_THAT(message_of([&] { none.accumulate({}); }), HasSubstr("has no accumulation buffer"));
+  EXPECT_THAT(message_of([&] { none.clear({.accumulation = Color{}}); }),
+              HasSubstr("has no accumulation buffer"));
+  EXPECT_THAT(message_of([&] { without.read_accumulation({}); }), HasSubstr("0 elements"));
   std::vector<float> rgba(256);
-  EXPECT_THAT(says([&] { without.read_accumulation(rgba); }), HasSubstr("has no accumulation buffer"));
-  EXPECT_THAT(says([&] { indices.accumulate({}); }), HasSubstr("indices"));
-  EXPECT_THAT(says([&] { greys.accumulate({.value = std::numeric_limits<double>::quiet_NaN()}); }),
+  EXPECT_THAT(message_of([&] { without.read_accumulation(rgba); }), HasSubstr("has no accumulation buffer"));
+  EXPECT_THAT(message_of([&] { indices.accumulate({}); }), HasSubstr("indices"));
+  EXPECT_THAT(message_of([&] { greys.accumulate({.value = std::numeric_limits<double>::quiet_NaN()}); }),
               HasSubstr("value holds nan, must be finite"));
-  EXPECT_THAT(says([&] { greys.accumulate({.value = std::numeric_limits<double>::infinity()}); }),
+  EXPECT_THAT(message_of([&] { greys.accumulate({.value = std::numeric_limits<double>::infinity()}); }),
               HasSubstr("must be finite"));
-  EXPECT_THAT(says([&] { greys.accumulate({.scissor = Rect{0, 0, -1, 4}}); }), HasSubstr("scissor"));
-  EXPECT_THAT(says([&] {
+  EXPECT_THAT(message_of([&] { greys.accumulate({.scissor = Rect{0, 0, -1, 4}}); }), HasSubstr("scissor"));
+  EXPECT_THAT(message_of([&] {
                 greys.accumulate({.color_mask = {true, false, true, true}});
               }),
               HasSubstr("luminance alone"));
-  EXPECT_THAT(says([&] {
+  EXPECT_THAT(message_of([&] {
                 greys.clear({.accumulation = Color{0, 0, 1.5f, 0}});
               }),
               HasSubstr("accumulation is 1.5, must be -1 to 1"));
-  EXPECT_EQ(says([&] { greys.accumulate({.color_mask = {false, false, false, true}}); }), "no error");
+  EXPECT_EQ(message_of([&] { greys.accumulate({.color_mask = {false, false, false, true}}); }), "no error");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What the alpha test looks at; of draws that store no colour, too: depth and stencil of cut-outs are those
-// that the same draw leaves with its colour.
+// The alpha test, also of draws that store no colour: cut-outs leave the same depth and stencil as the same
+// draw with colour.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ MeshData ramp() {
   return mesh;
 }
 
-TEST(AlphaTestWithoutColor, LooksAtTheMaterial) {
+TEST(AlphaTestWithoutColor, TestsTheMaterialsAlpha) {
   const MeshData mesh = whole_window(0.25f);
   for (const bool lighting : {false, true})
     for (const float alpha : {0.2f, 0.8f}) {
@@ -53,7 +53,7 @@ TEST(AlphaTestWithoutColor, LooksAtTheMaterial) {
     }
 }
 
-TEST(AlphaTestWithoutColor, LooksAtTheVerticesInEveryShading) {
+TEST(AlphaTestWithoutColor, TestsVertexAlphaInEveryShading) {
   const MeshData mesh = ramp();
   for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
     for (const ColorMaterial mode : {ColorMaterial::none, ColorMaterial::diffuse,
@@ -75,9 +75,9 @@ TEST(AlphaTestWithoutColor, LooksAtTheVerticesInEveryShading) {
       }
 }
 
-// Colours are clamped where they are lit: at the vertices, or at the pixels, whose alpha is beyond 0.5 in
-// another place then.
-TEST(AlphaTest, LooksAtAlphaThatIsClampedWhereItIsLit) {
+// Alpha is clamped where lighting is evaluated, at the vertices or at the pixels, so
+// it crosses 0.5 in different places.
+TEST(AlphaTest, TestsAlphaClampedWhereLightingIsEvaluated) {
   MeshData mesh = whole_window(0.25f);
   mesh.colors = {1, 1, 1, -1, 1, 1, 1, 3, 1, 1, 1, 3, 1, 1, 1, -1};
   DrawState state;
@@ -90,13 +90,12 @@ TEST(AlphaTest, LooksAtAlphaThatIsClampedWhereItIsLit) {
           << static_cast<int>(shading) << stores_color;
     }
   state.lighting = false;
-  EXPECT_EQ(passed(drawn(mesh.view(), state, {}, false)), 20u * 24) << "nothing is lit";
+  EXPECT_EQ(passed(drawn(mesh.view(), state, {}, false)), 20u * 24) << "unlit";
 }
 
-// So it is by every way that alpha takes to the pixels: mixed at once or one pixel after the other, of
-// samples, under textures, of outlines.
-TEST(AlphaThatIsLit, IsClampedWhereItIsLit) {
-  MeshData mesh = rectangle(-1, -0.5f, 1, 0.5f, 0.25f);  // its lower side is between rows 17 and 18
+// Every colour path clamps alike: immediate and deferred shading, samples, textures and outlines.
+TEST(LitAlpha, IsClampedWhereLightingIsEvaluated) {
+  MeshData mesh = rectangle(-1, -0.5f, 1, 0.5f, 0.25f);  // the lower side lies between rows 17 and 18
   mesh.primitive = Primitive::quads;
   mesh.indices = {0, 1, 2, 3};
   mesh.colors = {1, 1, 1, -1, 1, 1, 1, 3, 1, 1, 1, 3, 1, 1, 1, -1};
@@ -120,9 +119,9 @@ TEST(AlphaThatIsLit, IsClampedWhereItIsLit) {
           frame.draw(mesh.view(), state);
           Renderer().finish(frame);
           const std::vector<std::uint32_t> words = packed_colors(buffer);
-          for (std::size_t x = 3; x < 37; ++x) {  // beside what the other sides cover
-            const double along = (static_cast<double>(x) + 0.5) / 40,
-                         alpha = std::clamp(shading == Shading::phong ? -1 + 4 * along : along, 0.0, 1.0);
+          for (std::size_t x = 3; x < 37; ++x) {  // columns not covered by the left and right sides
+            const double along = (static_cast<double>(x) + 0.5) / 40;
+            const double alpha = std::clamp(shading == Shading::phong ? -1 + 4 * along : along, 0.0, 1.0);
             ASSERT_NEAR(words[17 * 40 + x] >> 16 & 255, 255 * alpha, 1)
                 << x << ", " << static_cast<int>(shading) << " " << samples << " " << (under != nullptr)
                 << " " << static_cast<int>(mode);
@@ -130,7 +129,7 @@ TEST(AlphaThatIsLit, IsClampedWhereItIsLit) {
         }
 }
 
-TEST(AlphaTestWithoutColor, LooksAtEachFacesMaterial) {
+TEST(AlphaTestWithoutColor, TestsTheMaterialOfEachFace) {
   const MeshData mesh = whole_window(0.25f);
   for (const FrontFace front : {FrontFace::ccw, FrontFace::cw}) {
     DrawState state;

@@ -1,5 +1,5 @@
-// A frame that has a bit of everything: triangles of all sizes in random order, many of them cut by the near
-// and far planes and the edges of the window, layer upon layer, in every kind of shading.
+// A frame with many kinds of triangles: all sizes in random order, many cut by the near and far planes and
+// the window edges, with much overdraw, in every kind of shading.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,8 @@ namespace tessera::test {
 
 struct RandomFrame {
   FrameBufferFormat format;
-  MeshData triangles, strip;
+  MeshData triangles;
+  MeshData strip;
   std::vector<Light> lights;
   Camera camera;
 
@@ -18,7 +19,9 @@ struct RandomFrame {
       : format(std::move(f)) {
     Random random(20);
     for (int i = 0; i < count; ++i) {
-      const float size = i % 16 == 0 ? 6.0f : i % 4 == 0 ? 0.8f : 0.08f;
+      float size = 0.08f;
+      if (i % 4 == 0) size = 0.8f;
+      if (i % 16 == 0) size = 6.0f;
       const float center[3] = {random.between(-4, 4), random.between(-3, 3), random.between(-9, 1)};
       for (int k = 0; k < 3; ++k) {
         for (const float c : center) triangles.positions.push_back(c + random.between(-size, size));
@@ -51,7 +54,7 @@ struct RandomFrame {
     camera.projection = perspective(60, static_cast<double>(format.width) / format.height, 0.5, 7);
   }
 
-  /// Records it; the frame borrows the meshes.
+  /// Records the frame, which borrows the meshes.
   void record(Frame& frame) const {
     Clear clear;
     clear.color = Color{0.1f, 0.2f, 0.3f, 1};
@@ -73,7 +76,7 @@ struct RandomFrame {
       frame.draw(triangles.view(), state);
       frame.draw(strip.view(), state);
     }
-    // Layers in the order of submission alone.
+    // Layers without a depth test: the recording order decides.
     state.depth.enabled = false;
     state.lighting = false;
     state.scissor = Rect{40, 30, 120, 90};

@@ -1,6 +1,6 @@
-// A frame in which every operation on fragments happens: triangles of all sizes, every other primitive,
-// bitmaps and images in draws that each switch on another part of the operations, with clears of parts and
-// accumulation in between. Each operation, factor and function has its turn.
+// A frame with every fragment operation: triangles of all sizes, every other primitive, bitmaps and images,
+// in draws that each enable different operations, with partial clears and accumulation in between. Every
+// operation, factor and function occurs.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,9 @@ namespace tessera::test {
 struct RandomOperations {
   FrameBufferFormat format;
   int draws;
-  MeshData small, mixed;
-  std::vector<MeshData> elements;  // one of each primitive
+  MeshData small;
+  MeshData mixed;
+  std::vector<MeshData> elements;  // one mesh per primitive
   std::vector<std::uint8_t> texels;
   std::vector<Texture> textures;
   std::vector<Light> lights;
@@ -21,17 +22,18 @@ struct RandomOperations {
 
   explicit RandomOperations(FrameBufferFormat f, int draw_count = 48)
       : format(std::move(f)), draws(draw_count) {
-    Random random(7), of_texels(8);
-    for (int i = 0; i < 40 * 40 * 4; ++i) texels.push_back(static_cast<std::uint8_t>(of_texels.next()));
+    Random random(7);
+    Random texel_random(8);
+    for (int i = 0; i < 40 * 40 * 4; ++i) texels.push_back(static_cast<std::uint8_t>(texel_random.next()));
     small = triangles(random, 60, 0.12f);
     mixed = triangles(random, 24, 0);
-    Random of_elements(9);
+    Random element_random(9);
     for (int primitive = 0; primitive <= static_cast<int>(Primitive::polygon); ++primitive) {
-      MeshData& mesh = elements.emplace_back(triangles(of_elements, 4, primitive % 2 == 0 ? 0.5f : 0));
+      MeshData& mesh = elements.emplace_back(triangles(element_random, 4, primitive % 2 == 0 ? 0.5f : 0));
       mesh.primitive = static_cast<Primitive>(primitive);
       for (int i = 0; i < 12; ++i)
-        mesh.texcoords.push_back(of_elements.between(-2, 3)),
-            mesh.texcoords.push_back(of_elements.between(-2, 3));
+        mesh.texcoords.push_back(element_random.between(-2, 3)),
+            mesh.texcoords.push_back(element_random.between(-2, 3));
     }
     for (int i = 0; i < 6; ++i)
       textures.emplace_back(
@@ -47,9 +49,11 @@ struct RandomOperations {
     camera.projection = perspective(60, static_cast<double>(format.width) / format.height, 0.5, 7);
   }
 
-  /// Records it; the frame borrows the meshes and the texels.
+  /// Records the frame, which borrows the meshes and the texels.
   void record(Frame& frame) const {
-    Random random(11), of_pixels(12), of_elements(13);
+    Random random(11);
+    Random pixel_random(12);
+    Random element_random(13);
     frame.clear(whole_clear());
     frame.set_camera(camera);
     frame.set_lights(lights);
@@ -58,8 +62,8 @@ struct RandomOperations {
       if (i % 4 == 3 && format.accumulation_bits > 0) frame.accumulate(accum(random, i / 4));
       frame.set_light_model({.local_viewer = i % 3 == 0, .two_sided = i % 2 == 0});
       frame.draw((i % 3 == 0 ? mixed : small).view(), state(random, i));
-      if (i % 3 == 1) draw_pixels(frame, of_pixels, i);
-      if (i % 2 == 1) draw_element(frame, of_elements, i / 2);
+      if (i % 3 == 1) draw_pixels(frame, pixel_random, i);
+      if (i % 2 == 1) draw_element(frame, element_random, i / 2);
     }
   }
 
@@ -67,11 +71,13 @@ struct RandomOperations {
   bool is_index() const { return format.color_mode == ColorMode::index; }
   bool has_depth() const { return format.depth != DepthFormat::none; }
 
-  // Of half that size, or of many sizes.
+  // Triangles of half size `size`, or of mixed sizes if it is 0.
   MeshData triangles(Random& random, int count, float size) const {
     MeshData mesh;
     for (int i = 0; i < count; ++i) {
-      const float half = size > 0 ? size : i % 6 == 0 ? 4.0f : i % 2 == 0 ? 0.9f : 0.3f;
+      float half = i % 2 == 0 ? 0.9f : 0.3f;
+      if (i % 6 == 0) half = 4.0f;
+      if (size > 0) half = size;
       const float center[3] = {random.between(-2.5f, 2.5f), random.between(-1.8f, 1.8f),
                                random.between(-7, -1)};
       for (int k = 0; k < 3; ++k) {
@@ -84,13 +90,17 @@ struct RandomOperations {
     return mesh;
   }
 
-  // A bitmap, or an image of 1 to 4 channels and any zoom.
+  // A bitmap, or an image of 1 to 4 channels with any zoom.
   void draw_pixels(Frame& frame, Random& random, int i) const {
     const DrawState s = state(random, i);
     const double x = random.between(-20, static_cast<float>(format.width)),
                  y = random.between(-20, static_cast<float>(format.height));
-    const double depth = random.between(0, 1), zoom_x = random.between(-4, 6), zoom_y = random.between(-4, 6);
-    const int width = 1 + below(random, 40), height = 1 + below(random, 40), channels = 1 + i / 2 % 4;
+    const double depth = random.between(0, 1);
+    const double zoom_x = random.between(-4, 6);
+    const double zoom_y = random.between(-4, 6);
+    const int width = 1 + below(random, 40);
+    const int height = 1 + below(random, 40);
+    const int channels = 1 + i / 2 % 4;
     if (i % 2 == 0)
       frame.draw_bitmap({.bits = texels.data(),
                          .width = 8 * width,
@@ -113,7 +123,7 @@ struct RandomOperations {
                        fragment_state_of(s));
   }
 
-  // Polygons filled or as outlines, every second mesh textured, some as their shadows.
+  // Filled or outlined polygons; every second mesh is textured, some are drawn as planar shadows.
   void draw_element(Frame& frame, Random& random, int i) const {
     DrawState s = state(random, i);
     s.shading = static_cast<Shading>(i / 3 % 3);
@@ -137,7 +147,8 @@ struct RandomOperations {
     return {random.between(0, 1), random.between(0, 1), random.between(0, 1), random.between(0, 1)};
   }
   Rect part(Random& random) const {
-    const int w = 1 + below(random, format.width), h = 1 + below(random, format.height);
+    const int w = 1 + below(random, format.width);
+    const int h = 1 + below(random, format.height);
     return {below(random, format.width) - w / 4, below(random, format.height) - h / 4, w, h};
   }
 
@@ -221,7 +232,7 @@ struct RandomOperations {
     if (i % 8 == 6) s.cull = coin(random) ? Cull::back : Cull::front;
     if (i % 9 == 7) s.front_face = FrontFace::cw;
     const float x = random.between(-0.6f, 0.6f), y = random.between(-0.4f, 0.4f),
-                z = random.between(-0.5f, 0.5f);  // in an order that all compilers keep
+                z = random.between(-0.5f, 0.5f);  // declarators are evaluated in order by every compiler
     s.transform = translate(x, y, z) * rotate(random.between(0, 360), 0, 0, 1);
     if (i % 3 == 2) s.scissor = part(random);
     choose_tests(random, i, s);

@@ -1,5 +1,5 @@
-// What the tests of the public interface share: small meshes, images, messages; and what frame buffers hold
-// (fingerprint.h).
+// Shared by tests of the public interface: small meshes, images and error messages. Contents of frame buffers
+// are in fingerprint.h.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace tessera::test {
 using namespace program;
 
-/// The same numbers on every machine and library.
+/// The same sequence on every machine and standard library.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed * 2 + 1) {}
@@ -24,7 +24,7 @@ class Random {
     state_ ^= state_ >> 27;
     return static_cast<std::uint32_t>(state_ * 0x2545f4914f6cdd1du >> 32);
   }
-  /// 24 bits, so that every step is exact but the last.
+  /// 24 bits, so that every step but the last is exact.
   float between(float low, float high) {
     return low + (high - low) * (static_cast<float>(next() >> 8) / 16777216.0f);
   }
@@ -33,14 +33,14 @@ class Random {
   std::uint64_t state_;
 };
 
-/// An axis-parallel rectangle of two triangles, counter-clockwise, in whatever space the camera makes of it.
+/// An axis-parallel rectangle of two triangles, counter-clockwise in the coordinates of the current camera.
 inline MeshData rectangle(float x0, float y0, float x1, float y1, float z = 0) {
   MeshData mesh;
   mesh.positions = {x0, y0, z, x1, y0, z, x1, y1, z, x0, y1, z};
   mesh.indices = {0, 1, 2, 0, 2, 3};
   return mesh;
 }
-/// The whole window under the initial camera.
+/// Covers the whole window under the initial camera.
 inline MeshData whole_window(float z = 0) { return rectangle(-1, -1, 1, 1, z); }
 
 inline DrawState unlit(Color color) {
@@ -50,7 +50,7 @@ inline DrawState unlit(Color color) {
   return state;
 }
 
-/// Pixels of its own, 4 bytes each without gaps.
+/// Owns its pixels: 4 bytes each, without gaps.
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> bytes;

@@ -1,5 +1,5 @@
-// Bitmaps: where their bits fall, by a rule of its own in integers; and that what happens to their pixels is
-// what happens to those of a rectangle of triangles in the same place.
+// Bitmaps: the pixels of their bits by an independent integer rule, and fragment operations that match those
+// of a rectangle of triangles in the same place.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,18 +22,19 @@ constexpr int kWidth = 150, kHeight = 110;
 // Bits in rows of any stride, upwards or downwards in memory.
 struct OwnBitmap {
   int width, height;
-  std::vector<bool> bits;  // from the lower left
+  std::vector<bool> bits;  // row by row from the lower left
   std::vector<std::uint8_t> memory;
   std::ptrdiff_t stride;
   Bitmap bitmap;
 
   OwnBitmap(Random& random, int w, int h, std::uint32_t one_in) : width(w), height(h) {
-    const std::ptrdiff_t row = (w + 7) / 8, apart = row + below(random, 3);
-    memory.assign(static_cast<std::size_t>(apart * h), 0xff);  // what lies between the rows is nobody's
-    stride = random.next() % 2 == 0 ? apart : -apart;
+    const std::ptrdiff_t row = (w + 7) / 8;
+    const std::ptrdiff_t pitch = row + below(random, 3);
+    memory.assign(static_cast<std::size_t>(pitch * h), 0xff);  // padding between the rows is set
+    stride = random.next() % 2 == 0 ? pitch : -pitch;
     for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) bits.push_back(random.next() % one_in == 0);
-    const std::ptrdiff_t top = stride > 0 ? 0 : apart * (h - 1);
+    const std::ptrdiff_t top = stride > 0 ? 0 : pitch * (h - 1);
     for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) {
         std::uint8_t& byte = memory[static_cast<std::size_t>(top + stride * (h - 1 - y) + x / 8)];
@@ -48,7 +49,7 @@ struct OwnBitmap {
   }
 };
 
-// In 1/16 pixel: also beside the window, and far outside of it.
+// In 1/16 pixel; also outside the window.
 std::int64_t random_position(Random& random, int size) {
   switch (random.next() % 8) {
     case 0: return std::int64_t{16} * (random.next() % 2 == 0 ? 1'000'000'000'000 : -1'000'000'000'000);
@@ -57,7 +58,7 @@ std::int64_t random_position(Random& random, int size) {
   }
 }
 
-TEST(Bitmap, FallsOnThePixelsThatItsRoundedPositionSays) {
+TEST(Bitmap, CoversThePixelsOfItsRoundedPosition) {
   for (const int samples : {1, 4, 8})
     for (const int tile_size : {32, 64, 128})
       for (const InstructionSet set : available_instruction_sets()) {
@@ -80,7 +81,7 @@ TEST(Bitmap, FallsOnThePixelsThatItsRoundedPositionSays) {
           own.bitmap.y = static_cast<double>(y) / 16;
           own.bitmap.color = color_of(word);
           frame.draw_bitmap(own.bitmap, {.depth = {.enabled = false}});
-          // Rounded down, below 0 too.
+          // Rounded towards minus infinity.
           const std::int64_t left = x >> 4, bottom = y >> 4;
           for (int row = 0; row < kHeight; ++row)
             for (int column = 0; column < kWidth; ++column)
@@ -94,8 +95,8 @@ TEST(Bitmap, FallsOnThePixelsThatItsRoundedPositionSays) {
       }
 }
 
-// All bits set: the same pixels as those of a scissor, through each operation, in each kind of buffer.
-TEST(Bitmap, GoesThroughEveryOperationAsTrianglesDo) {
+// With all bits set, a bitmap equals a scissored rectangle, for each operation and each kind of buffer.
+TEST(Bitmap, PassesThroughEveryOperationLikeTriangles) {
   for (const FrameBufferFormat& format : operation_formats())
     for (int turn = 0; turn < 60; ++turn) {
       Random random(100 + static_cast<std::uint64_t>(turn));
@@ -104,12 +105,13 @@ TEST(Bitmap, GoesThroughEveryOperationAsTrianglesDo) {
                                            0xff);
       const Color color{random.between(0, 1), random.between(0, 1), random.between(0, 1),
                         random.between(0, 1)};
-      const double depth =
-          static_cast<double>(below(random, 257)) / 256;  // exact in every format's way to it
+      const double depth = static_cast<double>(below(random, 257)) / 256;  // exact in every depth format
       const FragmentState state = random_fragment_state(random, format, turn);
       const auto background = [&](Frame& frame) { draw_background(frame, format); };
-      FrameBuffer by_bits(format), by_triangles(format);
-      Frame bits(by_bits), triangles(by_triangles);
+      FrameBuffer by_bits(format);
+      FrameBuffer by_triangles(format);
+      Frame bits(by_bits);
+      Frame triangles(by_triangles);
       background(bits);
       background(triangles);
       Bitmap bitmap{
@@ -132,9 +134,9 @@ TEST(Bitmap, GoesThroughEveryOperationAsTrianglesDo) {
 
 TEST(Bitmap, DepthIsQuantizedLikeAClear) {
   const std::uint8_t one = 0x80;
-  for (const DepthFormat format :
-       {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32}) {
-    const int bits = format == DepthFormat::unorm16 ? 16 : format == DepthFormat::unorm24 ? 24 : 32;
+  for (const auto& [format, bits] :
+       {std::pair{DepthFormat::unorm16, 16}, std::pair{DepthFormat::unorm24, 24},
+        std::pair{DepthFormat::unorm32, 32}, std::pair{DepthFormat::float32, 32}}) {
     for (const double depth : {0.0, 1.0, 0.5, 0.1, 1.0 / 3, 0.999999, 1e-9, 0.7000001}) {
       FrameBuffer buffer({.width = 5, .height = 3, .depth = format});
       Frame frame(buffer);
@@ -151,7 +153,7 @@ TEST(Bitmap, DepthIsQuantizedLikeAClear) {
   }
 }
 
-TEST(Bitmap, TakesItsPlaceAmongClearsDrawsAndAccumulation) {
+TEST(Bitmap, KeepsItsPlaceAmongClearsDrawsAndAccumulation) {
   const std::vector<std::uint8_t> ones(8, 0xff);
   const auto square = [&](double x, double y, Color color, double depth = 0) {
     return Bitmap{
@@ -168,9 +170,9 @@ TEST(Bitmap, TakesItsPlaceAmongClearsDrawsAndAccumulation) {
       frame.set_lights({red});
       frame.set_light_model({.ambient = {0, 0, 0, 1}});
       frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
-      frame.draw_bitmap(square(0, 0, {0, 1, 0, 1}, 0.9));     // covered by what comes
-      frame.draw(whole.view(), {.shading = Shading::phong});  // pixels that wait for their light
-      frame.draw_bitmap(square(10, 0, {0, 0, 1, 1}, 0.25));   // before it
+      frame.draw_bitmap(square(0, 0, {0, 1, 0, 1}, 0.9));     // covered by later draws
+      frame.draw(whole.view(), {.shading = Shading::phong});  // deferred pixels
+      frame.draw_bitmap(square(10, 0, {0, 0, 1, 1}, 0.25));   // nearer
       frame.draw_bitmap(square(20, 0, {0, 0, 1, 1}, 0.8));    // behind it
       frame.accumulate({.op = AccumOp::load, .value = 1});
       frame.draw_bitmap(square(30, 0, {1, 1, 1, 1}));  // not accumulated
@@ -180,12 +182,12 @@ TEST(Bitmap, TakesItsPlaceAmongClearsDrawsAndAccumulation) {
       Renderer({.threads = 1, .defer_shading = defer}).finish(frame);
       const std::vector<std::uint32_t> words = packed_colors(buffer);
       const auto at = [&](int x, int y) { return words[static_cast<std::size_t>((39 - y) * 48 + x)]; };
-      EXPECT_EQ(at(2, 2) & 0xffff, 0u) << "red light alone";
+      EXPECT_EQ(at(2, 2) & 0xffff, 0u) << "red light only";
       EXPECT_GT(at(2, 2) >> 16, 100u);
       EXPECT_EQ(at(12, 2), 0xffff00u);
       EXPECT_EQ(at(16, 2), 0x0000ffu);
       EXPECT_EQ(at(22, 2) & 0xffff, 0u);
-      EXPECT_EQ(at(32, 2) & 0xffff, 0u) << "as it was accumulated";
+      EXPECT_EQ(at(32, 2) & 0xffff, 0u) << "as accumulated";
       EXPECT_EQ(at(36, 2), 0xffffffu);
       EXPECT_EQ(at(40, 4), 0x00ffffu);
       EXPECT_EQ(at(47, 11), 0x00ffffu);
@@ -193,7 +195,7 @@ TEST(Bitmap, TakesItsPlaceAmongClearsDrawsAndAccumulation) {
     }
 }
 
-TEST(Bitmap, IsADrawToCapturesExplanationsAndCounts) {
+TEST(Bitmap, CountsAsADrawInCapturesExplanationsAndStatistics) {
   const std::vector<std::uint8_t> stripes(64, 0xf0);
   for (const bool with_operations : {false, true})
     for (const int samples : {1, 4}) {
@@ -206,13 +208,14 @@ TEST(Bitmap, IsADrawToCapturesExplanationsAndCounts) {
       frame.draw(whole.view(), {});
       frame.draw_bitmap({.bits = stripes.data(), .width = 8, .height = 64, .x = 30, .y = -4}, state);
       frame.draw_bitmap({.bits = stripes.data(), .width = 8, .height = 1, .x = 100, .y = 0},
-                        state);  // outside
+                        state);  // outside the window
       frame.draw_bitmap({.bits = stripes.data(), .width = 8, .height = 1, .x = 0, .y = 3}, state);
       EXPECT_EQ(frame.draw_count(), 4u);
       EXPECT_THAT(frame.explain(1), AllOf(HasSubstr("a bitmap of 8 x 64: one colour"),
                                           HasSubstr("depth test"), testing::Not(HasSubstr("left out"))));
       EXPECT_THAT(frame.explain(2), HasSubstr("can change no pixel: left out"));
-      std::vector<std::uint32_t> draw_ids(pixel_count(buffer)), primitive_ids(draw_ids.size());
+      std::vector<std::uint32_t> draw_ids(pixel_count(buffer));
+      std::vector<std::uint32_t> primitive_ids(draw_ids.size());
       std::vector<float> normals(3 * draw_ids.size());
       frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals});
       const FrameStats stats =
@@ -222,7 +225,9 @@ TEST(Bitmap, IsADrawToCapturesExplanationsAndCounts) {
       std::size_t drawn = 0;
       for (std::size_t y = 0; y < 50; ++y)
         for (std::size_t x = 0; x < 70; ++x) {
-          const std::uint32_t object = x >= 30 && x < 34 ? 1 : x < 4 && y == 46 ? 3 : 0;
+          std::uint32_t object = 0;
+          if (x < 4 && y == 46) object = 3;
+          if (x >= 30 && x < 34) object = 1;
           const std::size_t i = 70 * y + x;
           ASSERT_EQ(draw_ids[i], object) << x << ' ' << y;
           ASSERT_EQ(primitive_ids[i], object == 0 ? (primitive_ids[i] & 1) : 0u);
@@ -233,7 +238,7 @@ TEST(Bitmap, IsADrawToCapturesExplanationsAndCounts) {
     }
 }
 
-TEST(Bitmap, CountsTheTilesThatItTouches) {
+TEST(Bitmap, CountsTheTilesItTouches) {
   const std::vector<std::uint8_t> ones(64, 0xff);
   FrameBuffer buffer({.width = 128, .height = 96});
   Frame frame(buffer);
@@ -249,14 +254,14 @@ TEST(Bitmap, CountsTheTilesThatItTouches) {
   EXPECT_EQ(stats.shaded_pixels, 64u * 8);
 }
 
-TEST(Bitmap, RefusesWhatItCannotDraw) {
+TEST(Bitmap, InvalidBitmapsAreRefused) {
   const std::uint8_t byte = 0xff;
-  const double nan = std::numeric_limits<double>::quiet_NaN(),
-               infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
   const Bitmap good{.bits = &byte, .width = 8, .height = 1};
-  FrameBuffer rgb({.width = 16, .height = 16}),
-      index({.width = 16, .height = 16, .color_mode = ColorMode::index, .color_bits = 4}),
-      bare({.width = 16, .height = 16, .depth = DepthFormat::none, .stencil_bits = 0});
+  FrameBuffer rgb({.width = 16, .height = 16});
+  FrameBuffer index({.width = 16, .height = 16, .color_mode = ColorMode::index, .color_bits = 4});
+  FrameBuffer bare({.width = 16, .height = 16, .depth = DepthFormat::none, .stencil_bits = 0});
   const auto error = [&](const auto& change, const FragmentState& state, FrameBuffer& buffer) {
     Bitmap bitmap = good;
     change(bitmap);
@@ -290,12 +295,12 @@ TEST(Bitmap, RefusesWhatItCannotDraw) {
   EXPECT_THAT(error(as_is, {.alpha_test = AlphaTest{}}, index), HasSubstr("indices, which have no alpha"));
   EXPECT_THAT(error(as_is, {.color_mask = {true, false, true, true}}, index), HasSubstr("all or none"));
   EXPECT_THAT(error(as_is, {.stencil = StencilState{}}, bare), HasSubstr("no stencil buffer"));
-  EXPECT_EQ(error(as_is, {}, bare), "(no error)") << "a depth that no buffer looks at";
+  EXPECT_EQ(error(as_is, {}, bare), "(no error)") << "without a depth buffer the depth is not checked";
   EXPECT_EQ(of([](Bitmap& b) {
               b.x = -1e300, b.y = 1e300, b.color = {-5, 7, 0, 2};
             }),
             "(no error)")
-      << "far outside; colours are clamped";
+      << "far outside the window; colours are clamped";
   EXPECT_EQ(of([](Bitmap& b) { b.height = 1, b.stride_bytes = -100; }), "(no error)")
       << "one row needs no stride";
 }

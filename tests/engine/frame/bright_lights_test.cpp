@@ -1,4 +1,4 @@
-// Lights far beyond 1 show the feet of their highlights, where the power alone is next to nothing.
+// Lights far brighter than 1 make the edges of their highlights visible, where the power alone is close to 0.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,13 +12,13 @@ namespace {
 
 struct Bright {
   const char* name;
-  float brightness;      // of the light
-  double attenuation;    // its constant
-  bool colors_vertices;  // the vertices have the highlight's colour
+  float brightness;      // colour of the light or the vertices
+  double attenuation;    // constant attenuation of the light
+  bool colors_vertices;  // the specular colour comes from the vertices
 };
 
-// Least and most red of a triangle whose normals lean by an angle of that cosine from the light and the
-// viewer, who are in the same direction: S.n is that cosine.
+// Minimum and maximum red of a triangle whose normals have `cosine` with the direction to the light and the
+// viewer, a common direction, so that S.n is `cosine`.
 std::pair<double, double> red_of(const Bright& light_and_colors, float cosine, float shininess,
                                  Shading shading) {
   MeshData mesh;
@@ -49,24 +49,24 @@ std::pair<double, double> red_of(const Bright& light_and_colors, float cosine, f
   frame.draw(mesh.view(), state);
   Renderer({.threads = 1}).finish(frame);
   const std::vector<std::uint32_t> words = packed_colors(buffer);
-  const auto [least, most] = std::minmax_element(words.begin(), words.end());
-  return {*least >> 16, *most >> 16};
+  const auto [min_red, max_red] = std::minmax_element(words.begin(), words.end());
+  return {*min_red >> 16, *max_red >> 16};
 }
 
-TEST(BrightLights, ShowTheFeetOfTheirHighlights) {
+TEST(BrightLights, ShowTheEdgesOfTheirHighlights) {
   for (const Bright& bright :
        {Bright{"light", 2e9f, 1, false}, Bright{"brighter", 3e20f, 1, false},
         Bright{"attenuation", 1, 5e-10, false}, Bright{"vertex colours", 2e9f, 1, true}})
     for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
       for (const float shininess : {10.0f, 60.0f})
-        for (const double share : {0.1, 0.4, 0.8}) {  // that is to be seen
+        for (const double share : {0.1, 0.4, 0.8}) {  // expected red, as a fraction of the maximum
           const double factor = bright.brightness / bright.attenuation;
           const auto cosine = static_cast<float>(std::pow(share / factor, 1 / double{shininess}));
           const double expected = 255 * factor * std::pow(double{cosine}, double{shininess});
-          const auto [least, most] = red_of(bright, cosine, shininess, shading);
-          EXPECT_NEAR(least, expected, 1)
+          const auto [min_red, max_red] = red_of(bright, cosine, shininess, shading);
+          EXPECT_NEAR(min_red, expected, 1)
               << bright.name << ", exponent " << shininess << ", " << static_cast<int>(shading);
-          EXPECT_NEAR(most, expected, 1)
+          EXPECT_NEAR(max_red, expected, 1)
               << bright.name << ", exponent " << shininess << ", " << static_cast<int>(shading);
         }
 }

@@ -1,4 +1,4 @@
-// Objects, primitives and normals of pixels, and counted fragments.
+// Captured draw numbers, primitive numbers and normals, and fragment counts.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,8 @@ using namespace test;
 constexpr FrameBufferFormat kFormat{.width = 150, .height = 110};
 
 struct Pixels {
-  std::vector<std::uint32_t> draw_ids, primitive_ids;
+  std::vector<std::uint32_t> draw_ids;
+  std::vector<std::uint32_t> primitive_ids;
   std::vector<float> normals;
   explicit Pixels(const FrameBuffer& buffer)
       : draw_ids(pixel_count(buffer), 7),
@@ -27,17 +28,19 @@ struct Pixels {
   Capture all() { return {.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals}; }
 };
 
-// The oracle: every triangle is a draw of its own, unlit, in a colour that is its number.
-TEST(Capture, NamesTheTriangleThatGaveAPixelItsColor) {
+// Oracle: each triangle is a separate unlit draw whose colour is its number.
+TEST(Capture, NamesTheTriangleThatColoredThePixel) {
   const RandomFrame scene(kFormat, 400);
   for (const int tile_size : {32, 64, 128}) {
     for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
       Renderer renderer({.threads = 2, .tile_size = tile_size});
-      FrameBuffer buffer(kFormat), numbered(kFormat);
-      Frame frame(buffer), numbers(numbered);
+      FrameBuffer buffer(kFormat);
+      FrameBuffer numbered(kFormat);
+      Frame frame(buffer);
+      Frame numbers(numbered);
       std::vector<MeshData> single;
       single.reserve(1000);
-      std::vector<std::pair<std::uint32_t, std::uint32_t>> who;  // object and primitive of a number
+      std::vector<std::pair<std::uint32_t, std::uint32_t>> origins;  // number -> (draw, primitive)
       std::uint32_t object = 0;
       for (Frame* f : {&frame, &numbers}) {
         f->clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
@@ -49,14 +52,14 @@ TEST(Capture, NamesTheTriangleThatGaveAPixelItsColor) {
         state.cull = object == 0 ? Cull::none : Cull::back;
         frame.draw(mesh->view(), state);
         for (std::uint32_t t = 0; t < mesh->triangle_count(); ++t) {
-          who.emplace_back(object, t);
+          origins.emplace_back(object, t);
           MeshData& one = single.emplace_back();
           for (std::uint32_t k = 0; k < 3; ++k) {
             const std::size_t v = mesh->indices.empty() ? 3 * t + k : mesh->indices[3 * t + k];
             one.positions.insert(one.positions.end(), {mesh->positions[3 * v], mesh->positions[3 * v + 1],
                                                        mesh->positions[3 * v + 2]});
           }
-          const auto number = static_cast<std::uint32_t>(who.size());
+          const auto number = static_cast<std::uint32_t>(origins.size());
           DrawState plain =
               unlit({static_cast<float>(number >> 16 & 255) / 255,
                      static_cast<float>(number >> 8 & 255) / 255, static_cast<float>(number & 255) / 255, 1});
@@ -73,8 +76,8 @@ TEST(Capture, NamesTheTriangleThatGaveAPixelItsColor) {
       std::size_t drawn = 0;
       for (std::size_t i = 0; i < words.size(); ++i) {
         const bool nothing = words[i] == 0;
-        ASSERT_EQ(pixels.draw_ids[i], nothing ? Capture::kNothing : who[words[i] - 1].first) << i;
-        ASSERT_EQ(pixels.primitive_ids[i], nothing ? Capture::kNothing : who[words[i] - 1].second) << i;
+        ASSERT_EQ(pixels.draw_ids[i], nothing ? Capture::kNothing : origins[words[i] - 1].first) << i;
+        ASSERT_EQ(pixels.primitive_ids[i], nothing ? Capture::kNothing : origins[words[i] - 1].second) << i;
         const double length =
             std::hypot(pixels.normals[3 * i], pixels.normals[3 * i + 1], pixels.normals[3 * i + 2]);
         ASSERT_NEAR(length, nothing ? 0 : 1, 1e-5) << i;
@@ -85,11 +88,13 @@ TEST(Capture, NamesTheTriangleThatGaveAPixelItsColor) {
   }
 }
 
-TEST(Capture, ChangesNoBitOfThePictureAndHoldsForOneFrame) {
+TEST(Capture, KeepsThePictureAndAppliesToOneFrame) {
   const RandomFrame scene(kFormat, 400);
   Renderer renderer({.threads = 2});
-  FrameBuffer plain(kFormat), captured(kFormat);
-  Frame frame(plain), with(captured);
+  FrameBuffer plain(kFormat);
+  FrameBuffer captured(kFormat);
+  Frame frame(plain);
+  Frame with(captured);
   scene.record(frame);
   scene.record(with);
   Pixels pixels(captured);
@@ -100,11 +105,11 @@ TEST(Capture, ChangesNoBitOfThePictureAndHoldsForOneFrame) {
   const Pixels first = pixels;
   with.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
   renderer.finish(with);
-  EXPECT_EQ(pixels.draw_ids, first.draw_ids) << "not asked for again";
+  EXPECT_EQ(pixels.draw_ids, first.draw_ids) << "not requested again";
 }
 
-// Neither how pixels are stored nor when they are shaded has a say in which triangle is seen.
-TEST(Capture, IsTheSameForIndicesAndForShadingAtOnce) {
+// Neither the color mode nor deferred shading affects which triangle is visible.
+TEST(Capture, IsTheSameForIndicesAndForImmediateShading) {
   const RandomFrame scene(kFormat, 400);
   FrameBufferFormat indices = kFormat;
   indices.color_mode = ColorMode::index;
@@ -127,7 +132,7 @@ TEST(Capture, IsTheSameForIndicesAndForShadingAtOnce) {
     }
 }
 
-TEST(Capture, NormalsAreThoseOfASphere) {
+TEST(Capture, NormalsMatchThoseOfASphere) {
   const MeshData sphere = builtin_mesh("sphere", 48);
   for (const bool given : {true, false}) {
     for (const Shading shading : {Shading::flat, Shading::phong}) {
@@ -135,7 +140,7 @@ TEST(Capture, NormalsAreThoseOfASphere) {
       FrameBuffer buffer({.width = 101, .height = 101});
       Frame frame(buffer);
       frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
-      // A view that turns: eye space is not world space.
+      // A rotated view: eye space differs from world space.
       frame.set_camera(
           {.view = rotate(70, 1, 2, 3), .projection = orthographic(-1.1, 1.1, -1.1, 1.1, -2, 2)});
       Mesh mesh = sphere.view();
@@ -149,8 +154,9 @@ TEST(Capture, NormalsAreThoseOfASphere) {
       int checked = 0;
       for (int y = 0; y < 101; ++y)
         for (int x = 0; x < 101; ++x) {
-          const double nx = (x - 50) * (2.2 / 101) / radius, ny = (50 - y) * (2.2 / 101) / radius,
-                       squared = nx * nx + ny * ny;
+          const double nx = (x - 50) * (2.2 / 101) / radius;
+          const double ny = (50 - y) * (2.2 / 101) / radius;
+          const double squared = nx * nx + ny * ny;
           if (squared > 0.8) continue;
           const float* n = &pixels.normals[3 * static_cast<std::size_t>(101 * y + x)];
           ASSERT_NEAR(n[0], nx, 0.01) << x << ' ' << y;
@@ -167,11 +173,12 @@ TEST(Capture, FollowsClearsMasksAndLaterDraws) {
   Renderer renderer({.threads = 1});
   FrameBuffer buffer({.width = 8, .height = 8});
   Frame frame(buffer);
-  const MeshData whole = whole_window(), left = rectangle(-1, -1, 0, 1, 0.5f);
+  const MeshData whole = whole_window();
+  const MeshData left = rectangle(-1, -1, 0, 1, 0.5f);
   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
   frame.draw(whole.view(), {});
   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0, .scissor = Rect{0, 0, 8, 4}});
-  frame.draw(left.view(), {.color_mask = {false, false, false, false}});  // depth alone
+  frame.draw(left.view(), {.color_mask = {false, false, false, false}});  // depth only
   frame.draw(left.view(), {.depth = {.test = Compare::equal}});
   frame.draw(MeshData{}.view(), {});
   frame.draw(whole.view(), {.depth = {.test = Compare::never}});
@@ -179,12 +186,14 @@ TEST(Capture, FollowsClearsMasksAndLaterDraws) {
   frame.capture({.draw_ids = pixels.draw_ids, .primitive_ids = pixels.primitive_ids});
   renderer.finish(frame);
   for (std::size_t y = 0; y < 8; ++y)
-    for (std::size_t x = 0; x < 8; ++x)
-      EXPECT_EQ(pixels.draw_ids[8 * y + x], y < 4 ? 0u : x < 4 ? 2u : Capture::kNothing) << x << ' ' << y;
-  EXPECT_EQ(pixels.normals[0], 7.0f) << "not asked for";
+    for (std::size_t x = 0; x < 8; ++x) {
+      const std::uint32_t lower = x < 4 ? 2u : Capture::kNothing;
+      EXPECT_EQ(pixels.draw_ids[8 * y + x], y < 4 ? 0u : lower) << x << ' ' << y;
+    }
+  EXPECT_EQ(pixels.normals[0], 7.0f) << "not requested";
 }
 
-TEST(Capture, RefusesSpansOfAnotherSize) {
+TEST(Capture, SpansOfAnotherSizeAreRefused) {
   FrameBuffer buffer(kFormat);
   Frame frame(buffer);
   std::vector<std::uint32_t> ids(10);
@@ -200,7 +209,9 @@ TEST(Capture, RefusesSpansOfAnotherSize) {
 
 TEST(Fragments, AreCountedBeforeAnyTestAndOnlyOnRequest) {
   FrameBuffer buffer({.width = 37, .height = 21});
-  const MeshData near = whole_window(-0.5f), far = whole_window(0.5f), half = rectangle(-1, -1, 1, 0, 0);
+  const MeshData near = whole_window(-0.5f);
+  const MeshData far = whole_window(0.5f);
+  const MeshData half = rectangle(-1, -1, 1, 0, 0);
   for (const bool count : {false, true}) {
     Renderer renderer({.threads = 1, .count_fragments = count});
     Frame frame(buffer);
@@ -216,7 +227,7 @@ TEST(Fragments, AreCountedBeforeAnyTestAndOnlyOnRequest) {
   }
 }
 
-TEST(Capture, SeesNothingWhereAClearIsDithered) {
+TEST(Capture, HoldsNothingWhereAClearIsDithered) {
   FrameBuffer buffer({.width = 20, .height = 20, .color_bits = 3, .dither = Dither::bayer4});
   std::vector<std::uint32_t> draw_ids(pixel_count(buffer));
   Frame frame(buffer);

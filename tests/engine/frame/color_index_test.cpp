@@ -1,4 +1,5 @@
-// Index buffers: indices of vertices, rounded, masked and operated on. By hand where numbers are few.
+// Colour-index buffers: vertex indices are interpolated, rounded, masked and combined. Small cases are
+// computed by hand.
 #include <cmath>
 #include <limits>
 
@@ -38,12 +39,13 @@ TEST(ColorIndex, IsInterpolatedFromMaskedVertices) {
   }
 }
 
-TEST(ColorIndex, IsRoundedToTheNearestAndMaskedAgain) {
+TEST(ColorIndex, IsRoundedToNearestAndMaskedAgain) {
   FrameBufferFormat deep = kIndexFormat;
   deep.color_bits = 24;
   struct Case {
     float index;
-    std::uint32_t word, deep_word;
+    std::uint32_t word;
+    std::uint32_t deep_word;
   };
   const Case cases[] = {{2.5f, 3, 3},          {3.5f, 4, 4},
                         {3.4999f, 3, 3},       {0.49999997f, 0, 0},
@@ -62,7 +64,7 @@ TEST(ColorIndex, IsRoundedToTheNearestAndMaskedAgain) {
   }
 }
 
-TEST(ColorIndex, OfFlatTrianglesIsThatOfTheProvokingVertex) {
+TEST(ColorIndex, FlatTrianglesUseTheProvokingVertex) {
   DrawState state = index_state(Shading::flat);
   expect_everywhere(13, large_triangle(5, 9, 13), state);
   expect_everywhere(61, large_triangle(5, 9, -3), state);
@@ -80,7 +82,7 @@ TEST(ColorIndex, IsNeverDithered) {
   EXPECT_EQ(drawn(format, record), plain);
 }
 
-TEST(ColorIndex, GivesWayToColoursWhereItDoesNotApply) {
+TEST(ColorIndex, ColorsApplyWhereIndicesDoNot) {
   MeshData mesh = large_triangle(40, 41, 42);
   mesh.colors = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
   const auto record = [&](Frame& frame) { frame.draw(mesh.view(), index_state()); };
@@ -98,7 +100,7 @@ TEST(ColorIndex, GivesWayToColoursWhereItDoesNotApply) {
   EXPECT_THAT(packed_colors(buffer), Each(0xff5454u));
 }
 
-TEST(ColorIndex, XorDrawnTwiceRestoresWhatWasThere) {
+TEST(ColorIndex, XorDrawnTwiceRestoresTheBuffer) {
   const MeshData below = large_triangle(0, 63, 20), above = large_triangle(9, 40, 63);
   DrawState state = index_state();
   state.depth.enabled = false;
@@ -116,7 +118,7 @@ TEST(ColorIndex, XorDrawnTwiceRestoresWhatWasThere) {
   for (std::size_t i = 0; i < once.size(); ++i) ASSERT_EQ(once[i], before[i] ^ alone[i]);
 }
 
-TEST(ColorIndex, GoesThroughThePlaneMask) {
+TEST(ColorIndex, RespectsThePlaneMask) {
   DrawState state = index_state();
   state.plane_mask = 0b000111;
   const MeshData mesh = large_triangle(0b101010, 0b101010, 0b101010);
@@ -127,7 +129,7 @@ TEST(ColorIndex, GoesThroughThePlaneMask) {
   EXPECT_THAT(words, Each(0b010010u));
 }
 
-TEST(ColorIndex, ErrorsNameWhatIsWrong) {
+TEST(ColorIndex, ErrorsNameTheFault) {
   FrameBuffer buffer(kIndexFormat);
   Frame frame(buffer);
   MeshData mesh = large_triangle(1, 2, 3);
@@ -147,7 +149,7 @@ TEST(ColorIndex, ErrorsNameWhatIsWrong) {
   EXPECT_THAT(error_of([&] { frame.draw(mesh.view(), state); }).value_or(""), HasSubstr("no alpha"));
 }
 
-TEST(ColorIndex, NotFiniteDropsItsTriangleWhereItIsUsed) {
+TEST(ColorIndex, NonFiniteIndicesDropTheirTriangleIfUsed) {
   MeshData mesh = two_faces();
   mesh.color_indices.assign(8, 7);
   for (const float wrong :
@@ -163,13 +165,13 @@ TEST(ColorIndex, NotFiniteDropsItsTriangleWhereItIsUsed) {
       };
       EXPECT_EQ(dropped(kIndexFormat, index_state()), 2u) << "both triangles of the left half";
       EXPECT_EQ(dropped(kIndexFormat, DrawState{}), 0u) << "lit";
-      EXPECT_EQ(dropped({.width = 64, .height = 32}, index_state()), 0u) << "of an RGB buffer";
+      EXPECT_EQ(dropped({.width = 64, .height = 32}, index_state()), 0u) << "RGB buffers ignore indices";
     }
   }
 }
 
-// Strides, 16-bit indices and captures besides.
-TEST(ColorIndex, HasTheSameBitsHoweverItIsMade) {
+// Also strided arrays, 16-bit indices and captures.
+TEST(ColorIndex, BitsDoNotDependOnLayoutOrRendererOptions) {
   Random random(5);
   MeshData mesh;
   for (int i = 0; i < 600; ++i) {
@@ -216,12 +218,13 @@ TEST(ColorIndex, HasTheSameBitsHoweverItIsMade) {
               << name(set) << ", tiles of " << tile_size << ", " << threads << " threads, deferred " << defer;
 }
 
-TEST(ColorIndex, LeavesCapturesAlone) {
+TEST(ColorIndex, DoesNotChangeCaptures) {
   const MeshData mesh = with_normals(0, 0, 2);
   DrawState plain = index_state();
   plain.depth.test = Compare::lequal;
   for (const DrawState& state : every_pixel_path(plain)) {
-    PackedColors draw_ids(64 * 32), primitive_ids(64 * 32);
+    PackedColors draw_ids(64 * 32);
+    PackedColors primitive_ids(64 * 32);
     std::vector<float> normals(3 * 64 * 32);
     const PackedColors words = drawn(kIndexFormat, [&](Frame& frame) {
       frame.draw(mesh.view(), state);
@@ -229,7 +232,7 @@ TEST(ColorIndex, LeavesCapturesAlone) {
       frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals});
     });
     EXPECT_EQ(words, drawn(kIndexFormat, [&](Frame& frame) { frame.draw(mesh.view(), state); }));
-    EXPECT_THAT(draw_ids, Each(1u)) << "the second, not its index";
+    EXPECT_THAT(draw_ids, Each(1u)) << "the second draw, not its index";
     EXPECT_THAT(primitive_ids, Each(0u));
     for (std::size_t i = 0; i < normals.size(); ++i) ASSERT_EQ(normals[i], i % 3 == 2 ? 1.0f : 0.0f);
   }
@@ -242,7 +245,7 @@ std::string explain(const FrameBufferFormat& format, const MeshData& mesh, const
   return frame.explain(0);
 }
 
-TEST(ColorIndex, ExplainTellsWhatIsNotUsed) {
+TEST(ColorIndex, ExplainNamesUnusedInputs) {
   MeshData mesh = large_triangle(1, 2, 3);
   mesh.colors.assign(12, 1);
   FrameBufferFormat dithered = kIndexFormat;

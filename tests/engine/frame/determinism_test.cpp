@@ -1,10 +1,9 @@
-// The same frame gives the same bits: for any number of threads, tile size and instruction set, shaded early
-// or late, whole or in parts, in any order of tiles, scanned out or read back, and on any machine:
-// tests/picture_hashes.txt holds what every scene must come to, random_frame_hashes.txt what some random
-// frames must.
+// The same frame gives the same bits: for any number of threads, tile size and instruction set, with
+// immediate or deferred shading, in one or several bin passes, in any order of tiles, scanned out or read
+// back, and on any machine. tests/picture_hashes.txt holds the hash of every scene,
+// tests/random_frame_hashes.txt those of some random frames.
 //
-// After a change that means to change pictures: TESSERA_WRITE_HASHES=1 engine_tests
-// --gtest_filter='PictureHashes.*'
+// After an intended change of pictures: TESSERA_WRITE_HASHES=1 engine_tests --gtest_filter='PictureHashes.*'
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,9 +29,9 @@ namespace {
 
 using namespace test;
 
-const char* const kBuiltin = "builtin";  // the scene that is drawn when none is named
-const std::string kHashes = TESSERA_SOURCE_DIR "/tests/picture_hashes.txt",
-                  kRandomHashes = TESSERA_SOURCE_DIR "/tests/random_frame_hashes.txt";
+const char* const kBuiltin = "builtin";  // name of the program's default scene
+const std::string kHashes = TESSERA_SOURCE_DIR "/tests/picture_hashes.txt";
+const std::string kRandomHashes = TESSERA_SOURCE_DIR "/tests/random_frame_hashes.txt";
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names{kBuiltin};
@@ -58,8 +57,8 @@ std::string text(const RendererOptions& o) {
 const std::vector<RendererOptions>& all_options() {
   static const std::vector<RendererOptions> kAll = [] {
     std::vector<RendererOptions> all;
-    // Of what has two ways each is met with each number of threads, each size and each set, but not all with
-    // all.
+    // Each two-valued option meets every number of threads, every tile size and every instruction set, but
+    // not every combination of them.
     for (int threads = 1; threads <= 8; ++threads)
       for (const int tile_size : {32, 64, 128})
         for (const InstructionSet set : available_instruction_sets()) {
@@ -76,7 +75,7 @@ const std::vector<RendererOptions>& all_options() {
   return kAll;
 }
 
-// Kept: a renderer is made once and used for many frames.
+// Cached: each renderer is made once and used for many frames.
 Renderer& renderer(const RendererOptions& options) {
   static ThreadLimit limit(8);
   static std::map<std::string, Renderer> renderers;
@@ -118,7 +117,7 @@ void expect_same_bits_always(const FrameBufferFormat& format, const std::functio
   const std::vector<std::uint8_t> shown = read_back(format, record, plain);
   for (const RendererOptions& options : all_options()) {
     Renderer& by = renderer(options);
-    ASSERT_EQ(by.options().threads, options.threads) << "the machine did not lend the threads";
+    ASSERT_EQ(by.options().threads, options.threads) << "the thread limit is lower than requested";
     EXPECT_EQ(stored(format, record, by), expected) << text(options);
     EXPECT_TRUE(presented(format, record, by) == shown) << "scanned out by " << text(options);
   }
@@ -126,7 +125,7 @@ void expect_same_bits_always(const FrameBufferFormat& format, const std::functio
 
 class SceneBits : public testing::TestWithParam<std::string> {};
 
-TEST_P(SceneBits, DependOnNoOption) {
+TEST_P(SceneBits, DoNotDependOnRendererOptions) {
   const Scene scene = scene_of(GetParam());
   expect_same_bits_always(scene.framebuffer, [&](Frame& frame) { record(scene, frame); });
 }
@@ -155,7 +154,7 @@ TEST(Determinism, RandomTrianglesWithClippingAndOverdrawHaveTheSameBits) {
 
 class SampledTriangles : public testing::TestWithParam<std::pair<std::string, DepthFormat>> {};
 
-// Nothing but colours and depth, which samples have ways of their own for.
+// Colours and depth only: samples have specialized paths for these.
 TEST_P(SampledTriangles, HaveTheSameBits) {
   const DepthFormat depth = GetParam().second;
   const RandomFrame random(
@@ -186,7 +185,7 @@ TEST(Determinism, RandomTrianglesHaveTheSameBitsInGrey) {
   expect_same_bits_always(random.format, [&](Frame& frame) { random.record(frame); });
 }
 
-// Several batches of triangles and tasks of vertices, so that many threads have something to do at once.
+// Several batches of triangles and several vertex tasks, so that many threads work at the same time.
 TEST(Determinism, ManySmallTrianglesHaveTheSameBitsOnEightThreads) {
   const RandomFrame random(random_format(ColorMode::rgb, 24, DepthFormat::none), 20000);
   const auto record = [&](Frame& frame) { random.record(frame); };
@@ -198,8 +197,8 @@ TEST(Determinism, ManySmallTrianglesHaveTheSameBitsOnEightThreads) {
                 expected);
 }
 
-// A frame that is left all of one colour proves nothing: `colors` and `stencils` are how many different
-// values remain at least.
+// `colors` and `stencils` are minimum numbers of different stored values: a frame of one colour would prove
+// nothing.
 void expect_same_bits_of_operations(const FrameBufferFormat& format, std::size_t colors,
                                     std::size_t stencils) {
   const RandomOperations random(format);
@@ -209,7 +208,8 @@ void expect_same_bits_of_operations(const FrameBufferFormat& format, std::size_t
   Frame frame(buffer);
   record(frame);
   renderer({1, 64, InstructionSet::scalar, true}).finish(frame);
-  const std::vector<std::uint32_t> words = packed_colors(buffer), levels = stored_depths(buffer);
+  const std::vector<std::uint32_t> words = packed_colors(buffer);
+  const std::vector<std::uint32_t> levels = stored_depths(buffer);
   const std::vector<std::uint8_t> values = stencil_values(buffer);
   EXPECT_GE(std::set<std::uint32_t>(words.begin(), words.end()).size(), colors);
   EXPECT_GE(std::set<std::uint8_t>(values.begin(), values.end()).size(), stencils);
@@ -226,7 +226,7 @@ FrameBufferFormat full_format(int samples) {
 }
 
 TEST(Determinism, EveryOperationHasTheSameBits) { expect_same_bits_of_operations(full_format(1), 800, 60); }
-// Here triangles with a stencil test are drawn by the kernels that those without operations have.
+// Here triangles with a stencil test use the kernels of draws without fragment operations.
 TEST(Determinism, EveryOperationHasTheSameBitsInPlainColors) {
   expect_same_bits_of_operations({.width = 173, .height = 107}, 800, 60);
 }
@@ -307,7 +307,7 @@ PictureHashes hashes_of_random_frames() {
   return hashes;
 }
 
-// Writes the list instead where that is asked for.
+// With TESSERA_WRITE_HASHES set, writes the list instead.
 void expect_hashes_of(const std::string& list, const PictureHashes& now) {
   const char* const write = std::getenv("TESSERA_WRITE_HASHES");
   if (write != nullptr && std::string(write) == "1") {
@@ -325,11 +325,11 @@ void expect_hashes_of(const std::string& list, const PictureHashes& now) {
     expected.erase(name);
   }
   for (const auto& [name, hash] : expected)
-    ADD_FAILURE() << list << " has a hash of " << name << ", which nothing comes to";
+    ADD_FAILURE() << list << " has a hash of " << name << ", which no picture has";
 }
 
-TEST(PictureHashes, EverySceneComesToItsHash) { expect_hashes_of(kHashes, hashes_of_scenes()); }
-TEST(PictureHashes, EveryRandomFrameComesToItsHash) {
+TEST(PictureHashes, EverySceneMatchesItsHash) { expect_hashes_of(kHashes, hashes_of_scenes()); }
+TEST(PictureHashes, EveryRandomFrameMatchesItsHash) {
   expect_hashes_of(kRandomHashes, hashes_of_random_frames());
 }
 

@@ -1,5 +1,5 @@
-// Where a frame may change pixels, and which of their bits: scissors, viewports, colour and plane masks,
-// clears between draws.
+// The pixels, and the bits of them, that a frame may change: scissors, viewports, colour masks, plane masks,
+// and clears between draws.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -12,8 +12,12 @@ namespace {
 using namespace test;
 
 const FrameBufferFormat kFormat{.width = 70, .height = 45};
-const Color kBlue{0, 0, 1, 1}, kRed{1, 0, 0, 1}, kGreen{0, 1, 0, 1};
-constexpr std::uint32_t kBlueWord = 0x0000ff, kRedWord = 0xff0000, kGreenWord = 0x00ff00;
+const Color kBlue{0, 0, 1, 1};
+const Color kRed{1, 0, 0, 1};
+const Color kGreen{0, 1, 0, 1};
+constexpr std::uint32_t kBlueWord = 0x0000ff;
+constexpr std::uint32_t kRedWord = 0xff0000;
+constexpr std::uint32_t kGreenWord = 0x00ff00;
 
 bool inside(const Rect& rect, int x, int window_y) {
   return x >= rect.x && x - rect.x < rect.width && window_y >= rect.y && window_y - rect.y < rect.height;
@@ -29,14 +33,14 @@ std::vector<std::uint32_t> words_of(const FrameBufferFormat& format, const Recor
   return packed_colors(buffer);
 }
 
-// `expected` sees window coordinates: the lower row is 0.
+// `expected` gets window coordinates: row 0 is the lowest.
 void expect_words(const FrameBufferFormat& format, const std::vector<std::uint32_t>& words,
                   const std::function<std::uint32_t(int, int)>& expected) {
   int wrong = 0;
   for (int y = 0; y < format.height; ++y)
     for (int x = 0; x < format.width; ++x) {
-      const std::uint32_t word = words[static_cast<std::size_t>(y * format.width + x)],
-                          wanted = expected(x, format.height - 1 - y);
+      const std::uint32_t word = words[static_cast<std::size_t>(y * format.width + x)];
+      const std::uint32_t wanted = expected(x, format.height - 1 - y);
       if (word != wanted && wrong++ == 0)
         ADD_FAILURE() << "pixel " << x << ", " << format.height - 1 - y << " is " << std::hex << word
                       << ", not " << wanted;
@@ -72,7 +76,8 @@ TEST(Scissor, LimitsDraws) {
 }
 
 TEST(Scissor, LimitsClearsBeforeBetweenAndAfterDraws) {
-  const MeshData all = whole_window(), left = rectangle(-1, -1, 0, 1, -0.5f);
+  const MeshData all = whole_window();
+  const MeshData left = rectangle(-1, -1, 0, 1, -0.5f);
   for (const Rect& rect : kRects) {
     SCOPED_TRACE(testing::Message() << rect.x << ", " << rect.y << ", " << rect.width << " x "
                                     << rect.height);
@@ -89,7 +94,8 @@ TEST(Scissor, LimitsClearsBeforeBetweenAndAfterDraws) {
       frame.draw(left.view(), unlit({1, 1, 1, 1}));
     };
     expect_words(kFormat, words_of(kFormat, between), [&](int x, int y) {
-      return x < 35 ? 0xffffffu : inside(rect, x, y) ? kGreenWord : kRedWord;
+      if (x < 35) return 0xffffffu;
+      return inside(rect, x, y) ? kGreenWord : kRedWord;
     });
     const Record last = [&](Frame& frame) {
       frame.draw(all.view(), unlit(kRed));
@@ -100,8 +106,9 @@ TEST(Scissor, LimitsClearsBeforeBetweenAndAfterDraws) {
   }
 }
 
-TEST(Clears, OfDepthInMidFrameLetFartherDrawsThrough) {
-  const MeshData near = whole_window(-0.5f), far = whole_window(0.5f);
+TEST(Clears, DepthClearBetweenDrawsLetsFartherDrawsPass) {
+  const MeshData near = whole_window(-0.5f);
+  const MeshData far = whole_window(0.5f);
   const Rect hole{10, 5, 30, 22};
   const auto words = words_of(kFormat, [&](Frame& frame) {
     frame.draw(near.view(), unlit(kRed));
@@ -124,7 +131,7 @@ TEST(Clears, GoThroughFullMasksAndKeepTheirOrder) {
   expect_words(kFormat, words, [&](int x, int) { return x < 35 ? kRedWord : 0x0f00ffu; });
 }
 
-TEST(PlaneMask, LetsThroughEachBitAlone) {
+TEST(PlaneMask, SelectsEachBitAlone) {
   const MeshData part = rectangle(-0.8f, -0.7f, 0.6f, 0.9f);
   for (const ColorMode mode : {ColorMode::rgb, ColorMode::index})
     for (const int bits : {1, 2, 8, 16, 24}) {
@@ -145,7 +152,7 @@ TEST(PlaneMask, LetsThroughEachBitAlone) {
       for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
         const auto none = words(0, shading), all = words(0xffffffffu, shading);
         EXPECT_NE(none, all);
-        for (int k = 0; k <= bits; ++k) {  // one beyond: nothing
+        for (int k = 0; k <= bits; ++k) {  // bit `bits` does not exist: no change
           const std::uint32_t mask = 1u << k;
           std::vector<std::uint32_t> expected(none);
           for (std::size_t i = 0; i < expected.size(); ++i) expected[i] = (none[i] & ~mask) | (all[i] & mask);
@@ -155,10 +162,11 @@ TEST(PlaneMask, LetsThroughEachBitAlone) {
     }
 }
 
-TEST(ColorMask, LetsThroughTheBitsOfItsComponents) {
+TEST(ColorMask, SelectsTheBitsOfItsComponents) {
   const MeshData part = rectangle(-0.8f, -0.7f, 0.6f, 0.9f);
   for (int bits = 3; bits <= 24; ++bits) {
-    const int each = bits / 3, g_bits = each + (bits % 3 > 0);
+    const int each = bits / 3;
+    const int g_bits = each + (bits % 3 > 0);
     const std::uint32_t b = (1u << each) - 1, g = ((1u << g_bits) - 1) << each,
                         r = ((1u << bits) - 1) & ~(g | b);
     const FrameBufferFormat format{.width = 70, .height = 45, .color_bits = bits};
@@ -180,8 +188,9 @@ TEST(ColorMask, LetsThroughTheBitsOfItsComponents) {
   }
 }
 
-TEST(Viewport, PlacesTheWindowAndLimitsIt) {
-  const MeshData all = whole_window(), beyond = rectangle(-3, -3, 3, 3);
+TEST(Viewport, PlacesTheWindowAndClipsToIt) {
+  const MeshData all = whole_window();
+  const MeshData beyond = rectangle(-3, -3, 3, 3);
   for (const Rect& viewport : {Rect{0, 0, 70, 45}, Rect{10, 5, 20, 30}, Rect{-15, -7, 40, 22},
                                Rect{60, 40, 30, 30}, Rect{-100, -100, 1000, 900}, Rect{200, 0, 10, 10}})
     for (const MeshData* mesh : {&all, &beyond}) {
@@ -198,10 +207,11 @@ TEST(Viewport, PlacesTheWindowAndLimitsIt) {
     }
 }
 
-TEST(Sizes, OddOnesAreDrawnWhole) {
+TEST(Sizes, OddSizesAreDrawnCompletely) {
   const std::pair<int, int> sizes[] = {{1, 1},   {17, 3},    {1, 16384}, {16384, 1},
                                        {513, 2}, {127, 129}, {3, 4097}};
-  const MeshData left = rectangle(-1, -1, 0, 1), all = whole_window(0.5f);
+  const MeshData left = rectangle(-1, -1, 0, 1);
+  const MeshData all = whole_window(0.5f);
   for (const auto& [width, height] : sizes)
     for (const int tile_size : {32, 64, 128}) {
       SCOPED_TRACE(testing::Message() << width << " x " << height << ", tiles of " << tile_size);
@@ -211,7 +221,7 @@ TEST(Sizes, OddOnesAreDrawnWhole) {
       frame.draw(left.view(), unlit(kRed));
       frame.draw(all.view(), unlit(kBlue));
       Renderer(RendererOptions{.threads = 2, .tile_size = tile_size}).finish(frame);
-      // A pixel belongs to the left half if its centre does; a centre on the edge belongs to the right one.
+      // A pixel belongs to the left half if its centre does; a centre on the edge belongs to the right half.
       const int half = width / 2;
       expect_words(format, packed_colors(buffer),
                    [&](int x, int) { return x < half ? kRedWord : kBlueWord; });

@@ -1,4 +1,5 @@
-// Meshes without normals get them; provoking vertices, mirrored transforms and the two sides of a surface.
+// Generated normals of meshes without normals, provoking vertices, mirrored transforms and two-sided
+// lighting.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +64,7 @@ MeshData sheet(std::uint32_t side = 6) {
     }
   return mesh;
 }
-// Every corner a vertex of its own.
+// Separate vertices for every corner.
 MeshData split_up(const MeshData& mesh) {
   MeshData result;
   for (std::size_t i = 0; i < corner_count(mesh); ++i) {
@@ -88,7 +89,7 @@ void append_unit(const Vector& n, std::vector<float>& out) {
   const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   for (const double c : n) out.push_back(static_cast<float>(length > 0 ? c / length : 0));
 }
-// The definitions of the two kinds of generated normals, written down as they are said.
+// The definitions of the two kinds of generated normals, implemented directly.
 MeshData with_face_normals(const MeshData& mesh) {
   MeshData result = split_up(mesh);
   for (std::size_t i = 0; i < corner_count(mesh); ++i) append_unit(doubled_area(mesh, i / 3), result.normals);
@@ -99,7 +100,7 @@ MeshData with_smooth_normals(const MeshData& mesh) {
   const auto position = [&](std::size_t v) {
     return Vector{mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
   };
-  std::map<Vector, Vector> sums;  // 0 and -0 are the same there
+  std::map<Vector, Vector> sums;  // 0 and -0 compare equal
   for (std::size_t i = 0; i < corner_count(mesh); ++i) {
     Vector& sum = sums[position(corner(mesh, i))];
     const Vector n = doubled_area(mesh, i / 3);
@@ -116,7 +117,7 @@ DrawState shaded(Shading shading) {
   return state;
 }
 
-TEST(GeneratedNormals, OfFlatMeshesAreTheirFaces) {
+TEST(GeneratedNormals, FlatMeshesUseFaceNormals) {
   for (const MeshData& mesh : {sheet(), split_up(sheet())})
     for (const ProvokingVertex provoking : {ProvokingVertex::first, ProvokingVertex::last}) {
       DrawState state = shaded(Shading::flat);
@@ -125,7 +126,7 @@ TEST(GeneratedNormals, OfFlatMeshesAreTheirFaces) {
     }
 }
 
-TEST(GeneratedNormals, OfSmoothMeshesAreAreaWeightedMeans) {
+TEST(GeneratedNormals, SmoothMeshesUseAreaWeightedMeans) {
   for (const Shading shading : {Shading::gouraud, Shading::phong})
     for (const MeshData& mesh : {sheet(), split_up(sheet())}) {
       EXPECT_EQ(words_of(mesh, shaded(shading)), words_of(with_smooth_normals(mesh), shaded(shading)));
@@ -133,17 +134,19 @@ TEST(GeneratedNormals, OfSmoothMeshesAreAreaWeightedMeans) {
     }
 }
 
-// So many vertices that they are looked up in several parts: 12,100, and 71,286 at the same positions.
-TEST(GeneratedNormals, OfLargeSmoothMeshesAreTheSame) {
-  const MeshData mesh = sheet(110), split = split_up(mesh);
+// Large enough for a vertex search in several parts: 12,100 vertices, and 71,286 at the same positions.
+TEST(GeneratedNormals, LargeSmoothMeshesUseTheSameMeans) {
+  const MeshData mesh = sheet(110);
+  const MeshData split = split_up(mesh);
   const std::vector<std::uint32_t> expected = words_of(with_smooth_normals(mesh), shaded(Shading::gouraud));
   EXPECT_EQ(words_of(mesh, shaded(Shading::gouraud)), expected);
   EXPECT_EQ(words_of(split, shaded(Shading::gouraud)), expected);
 }
 
-// Large ones and small ones, some of which are in several pieces, between draws that change nothing.
-TEST(GeneratedNormals, OfManyMeshesInAFrameAreTheSame) {
-  std::vector<MeshData> meshes, given;
+// Large meshes, some processed in several parts, and small ones, between draws that change nothing.
+TEST(GeneratedNormals, ManyMeshesInAFrameUseTheSameMeans) {
+  std::vector<MeshData> meshes;
+  std::vector<MeshData> given;
   for (const std::uint32_t side : {3u, 60u, 4u, 40u, 5u, 90u, 7u, 25u, 33u, 6u, 45u, 2u}) {
     meshes.push_back(sheet(side));
     given.push_back(with_smooth_normals(meshes.back()));
@@ -173,8 +176,8 @@ TEST(GeneratedNormals, BelongToPositionsNotToVertices) {
     EXPECT_EQ(words_of(sheet(), shaded(shading)), words_of(split_up(sheet()), shaded(shading)));
 }
 
-// Quads with two corners in one place are the triangles that are left of them.
-TEST(GeneratedNormals, CountAFaceOnceWhereSeveralOfItsCornersAre) {
+// A quad with two corners at one position equals the remaining triangle.
+TEST(GeneratedNormals, CountAFaceOncePerPosition) {
   const MeshData triangles = sheet();
   for (std::size_t twice = 0; twice < 3; ++twice) {
     MeshData quads = triangles;
@@ -198,7 +201,7 @@ TEST(GeneratedNormals, CountZeroAndMinusZeroAsOnePosition) {
             words_of(with_smooth_normals(roof), shaded(Shading::gouraud)));
 }
 
-TEST(GeneratedNormals, TakeNoNoticeOfTrianglesThatAreDropped) {
+TEST(GeneratedNormals, IgnoreDroppedTriangles) {
   MeshData mesh = split_up(sheet());
   const MeshData whole = mesh;
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -216,7 +219,7 @@ TEST(GeneratedNormals, FollowTheTransform) {
   EXPECT_EQ(words_of(sheet(), state), words_of(with_smooth_normals(sheet()), state));
 }
 
-TEST(ProvokingVertex, GivesAFlatTriangleItsColor) {
+TEST(ProvokingVertex, ColorsAFlatTriangle) {
   MeshData mesh = split_up(rectangle(-1, -1, 1, 1));
   for (const float c : {0.f, 1.f, 0.2f, 0.4f, 0.6f, 0.8f})
     mesh.colors.insert(mesh.colors.end(), {c, 0, 0, 1});
@@ -234,14 +237,16 @@ TEST(ProvokingVertex, GivesAFlatTriangleItsColor) {
   EXPECT_EQ(reds(state), (std::vector<std::uint32_t>{0, 51, 204}));
   state.provoking_vertex = ProvokingVertex::first;
   EXPECT_EQ(reds(state), (std::vector<std::uint32_t>{0, 102}));
-  state.transform = translate(0, 0, 1) * scale(9, 9, 9) * rotate(80, 1, 0, 0);  // through the near plane
+  state.transform = translate(0, 0, 1) * scale(9, 9, 9) * rotate(80, 1, 0, 0);  // cut by the near plane
   EXPECT_EQ(reds(state), (std::vector<std::uint32_t>{0, 102}));
   state.provoking_vertex = ProvokingVertex::last;
   EXPECT_EQ(reds(state), (std::vector<std::uint32_t>{0, 51, 204}));
 }
 
-// A sheet towards the viewer, one light from there: lit it is 0.04 + 0.8, turned away 0.04.
-constexpr std::uint32_t kLit = 0xd6d6d6, kDark = 0x0a0a0a;
+// A sheet that faces the viewer and a light in that direction: its brightness is 0.04 + 0.8 if lit, 0.04 if
+// facing away.
+constexpr std::uint32_t kLit = 0xd6d6d6;
+constexpr std::uint32_t kDark = 0x0a0a0a;
 std::uint32_t middle(const MeshData& mesh, const DrawState& state, const LightModel& model) {
   FrameBuffer buffer({.width = 9, .height = 9});
   Frame frame(buffer);
@@ -252,7 +257,7 @@ std::uint32_t middle(const MeshData& mesh, const DrawState& state, const LightMo
   return packed_colors(buffer)[4 * 9 + 3];
 }
 
-TEST(MirroredTransforms, TurnTheWindingAndKeepTheNormal) {
+TEST(FrameMirroredTransforms, FlipTheWindingAndKeepTheNormal) {
   const MeshData mesh = rectangle(-1, -1, 1, 1);
   const MeshData given = with_smooth_normals(mesh);
   for (const MeshData& m : {mesh, given})
@@ -261,13 +266,13 @@ TEST(MirroredTransforms, TurnTheWindingAndKeepTheNormal) {
       state.shading = shading;
       for (const bool mirrored : {false, true}) {
         if (mirrored) state.transform = scale(-1, 1, 1);
-        EXPECT_EQ(middle(m, state, {}), kLit) << "one side: the normal decides";
+        EXPECT_EQ(middle(m, state, {}), kLit) << "one-sided: the normal decides";
         state.front_face = mirrored ? FrontFace::cw : FrontFace::ccw;
         EXPECT_EQ(middle(m, state, {.two_sided = true}), kLit);
         state.front_face = mirrored ? FrontFace::ccw : FrontFace::cw;
-        EXPECT_EQ(middle(m, state, {.two_sided = true}), kDark) << "taken for a back face";
+        EXPECT_EQ(middle(m, state, {.two_sided = true}), kDark) << "classified as a back face";
         state.cull = Cull::back;
-        EXPECT_EQ(middle(m, state, {}), 0x0000ffu) << "and culled as one";
+        EXPECT_EQ(middle(m, state, {}), 0x0000ffu) << "and culled as a back face";
         state.cull = Cull::front;
         EXPECT_EQ(middle(m, state, {}), kLit);
         state.cull = Cull::none;
@@ -275,7 +280,7 @@ TEST(MirroredTransforms, TurnTheWindingAndKeepTheNormal) {
     }
 }
 
-TEST(TwoSidedLighting, LightsBacksWithTheirOwnMaterialAndTheNegatedNormal) {
+TEST(TwoSidedLighting, LightsBacksWithTheirMaterialAndTheNegatedNormal) {
   const MeshData mesh = rectangle(-1, -1, 1, 1);
   for (const MeshData& m : {mesh, with_smooth_normals(mesh)})
     for (const Shading shading : kShadings) {
@@ -284,10 +289,10 @@ TEST(TwoSidedLighting, LightsBacksWithTheirOwnMaterialAndTheNegatedNormal) {
       state.back_material = Material{.diffuse = {0, 0.5f, 0, 1}};
       EXPECT_EQ(middle(m, state, {.two_sided = true}), kLit);
       state.transform = rotate(180, 0, 1, 0);
-      EXPECT_EQ(middle(m, state, {}), kDark) << "one-sided: turned away, and the front material";
+      EXPECT_EQ(middle(m, state, {}), kDark) << "one-sided: facing away, with the front material";
       EXPECT_EQ(middle(m, state, {.two_sided = true}), 0x0a8a0au);
       state.back_material.reset();
-      EXPECT_EQ(middle(m, state, {.two_sided = true}), kLit) << "absent: as the front";
+      EXPECT_EQ(middle(m, state, {.two_sided = true}), kLit) << "without a back material: as the front";
     }
 }
 

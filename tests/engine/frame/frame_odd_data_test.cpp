@@ -1,4 +1,4 @@
-// Odd data is no error: it is dropped, counted, and leaves the rest of the frame as it is.
+// Odd data is not an error: it is dropped and counted, and the rest of the frame is unchanged.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace {
 
 using namespace test;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
-                kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 const FrameBufferFormat kFormat{.width = 90, .height = 70};
 
 struct Result {
@@ -34,12 +34,12 @@ Result draw(const MeshData& mesh, const DrawState& state, RendererOptions option
   return result;
 }
 
-// Triangles side by side, each with vertices of its own; everything but the positions is optional.
+// Separate triangles in a row, without shared vertices; all attributes but the positions are optional.
 MeshData row_of_triangles(int count) {
   MeshData mesh;
   for (int i = 0; i < count; ++i) {
-    const float x = -0.95f + 1.9f * static_cast<float>(i) / static_cast<float>(count),
-                step = 1.5f / static_cast<float>(count);
+    const float x = -0.95f + 1.9f * static_cast<float>(i) / static_cast<float>(count);
+    const float step = 1.5f / static_cast<float>(count);
     const float corners[3][2] = {{x, -0.8f}, {x + step, -0.7f}, {x, 0.8f}};
     for (const auto& corner : corners) {
       mesh.positions.insert(mesh.positions.end(), {corner[0], corner[1], 0.1f * static_cast<float>(i % 3)});
@@ -77,11 +77,11 @@ void expect_dropped(const std::function<void(MeshData&)>& spoil, std::size_t tri
     EXPECT_EQ(result.stats.dropped_non_finite, 1u);
     EXPECT_EQ(result.stats.binned, 8u);
     EXPECT_EQ(sum(result.stats), result.stats.triangles_in);
-    EXPECT_EQ(result.pixels, rest.pixels) << "the others are drawn as if it were not there";
+    EXPECT_EQ(result.pixels, rest.pixels) << "the other triangles are unchanged";
   }
 }
 
-TEST(OddData, NonFinitePositionsDropTheirTriangle) {
+TEST(FrameOddData, NonFinitePositionsDropTheirTriangle) {
   for (const float value : {kNan, kInfinity, -kInfinity})
     for (std::size_t k = 0; k < 9; ++k)
       for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
@@ -91,7 +91,7 @@ TEST(OddData, NonFinitePositionsDropTheirTriangle) {
       }
 }
 
-TEST(OddData, PositionsThatOverflowInTheTransformDropTheirTriangle) {
+TEST(FrameOddData, PositionsOverflowingInTheTransformDropTheirTriangle) {
   DrawState state;
   state.transform = scale(1e300, 1, 1) * scale(1e-300, 1, 1);
   state.transform.m[0] = 1;
@@ -105,7 +105,7 @@ TEST(OddData, PositionsThatOverflowInTheTransformDropTheirTriangle) {
   EXPECT_EQ(result.stats.dropped_non_finite, 3u);
 }
 
-TEST(OddData, NonFiniteNormalsDropTheirTriangleWhereNormalsMatter) {
+TEST(FrameOddData, NonFiniteNormalsDropTheirTriangleIfNormalsAreUsed) {
   for (const float value : {kNan, kInfinity})
     for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
       DrawState lit;
@@ -114,12 +114,12 @@ TEST(OddData, NonFiniteNormalsDropTheirTriangleWhereNormalsMatter) {
       expect_dropped(spoil, 2, lit);
       MeshData bad = row_of_triangles(9);
       spoil(bad);
-      EXPECT_EQ(draw(bad, unlit({1, 1, 1, 1})).stats.binned, 9u) << "nothing looks at them";
+      EXPECT_EQ(draw(bad, unlit({1, 1, 1, 1})).stats.binned, 9u) << "normals are not used";
     }
 }
 
-// Neither the picture nor what is told of it.
-TEST(OddData, NonFiniteNormalsAreNoneToACaptureThatAloneAsksForThem) {
+// Neither the picture nor the statistics change.
+TEST(FrameOddData, NonFiniteNormalsUsedByACaptureAloneDropNothing) {
   FrameBuffer buffer({.width = 16, .height = 16});
   Frame frame(buffer);
   MeshData mesh;
@@ -130,13 +130,13 @@ TEST(OddData, NonFiniteNormalsAreNoneToACaptureThatAloneAsksForThem) {
   frame.capture({.normals = normals});
   frame.draw(mesh.view(), unlit({1, 1, 1, 1}));
   Renderer({.threads = 1}).finish(frame);
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    ASSERT_FLOAT_EQ(normals[i], i % 3 == 2 ? 1.0f : 0.0f);  // the first vertex's, which is left
+  // The normal of the first vertex, the only finite one.
+  for (std::size_t i = 0; i < normals.size(); ++i) ASSERT_FLOAT_EQ(normals[i], i % 3 == 2 ? 1.0f : 0.0f);
   const std::vector<std::uint32_t> words = packed_colors(buffer);
   EXPECT_EQ(std::count(words.begin(), words.end(), 0xffffffu), 16 * 16);
 }
 
-TEST(OddData, NonFiniteColorsDropTheirTriangleWhereColorsMatter) {
+TEST(FrameOddData, NonFiniteColorsDropTheirTriangleIfColorsAreUsed) {
   for (const float value : {kNan, -kInfinity})
     for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
       const auto spoil = [&](MeshData& mesh) { mesh.colors[12 * 7] = value; };
@@ -149,11 +149,11 @@ TEST(OddData, NonFiniteColorsDropTheirTriangleWhereColorsMatter) {
       expect_dropped(spoil, 7, plain);
       MeshData bad = row_of_triangles(9);
       spoil(bad);
-      EXPECT_EQ(draw(bad, {}).stats.binned, 9u) << "nothing looks at them";
+      EXPECT_EQ(draw(bad, {}).stats.binned, 9u) << "colours are not used";
     }
 }
 
-TEST(OddData, ANonFiniteVertexDropsEveryTriangleThatUsesIt) {
+TEST(FrameOddData, NonFiniteVertexDropsEveryTriangleThatUsesIt) {
   MeshData fan;
   fan.positions = {0, 0, 0};
   for (int i = 0; i < 8; ++i)
@@ -167,7 +167,7 @@ TEST(OddData, ANonFiniteVertexDropsEveryTriangleThatUsesIt) {
   EXPECT_EQ(draw(fan, {}).stats.dropped_non_finite, 7u);
 }
 
-TEST(OddData, ANonFiniteVertexThatNoTriangleUsesDropsNone) {
+TEST(FrameOddData, UnusedNonFiniteVertexDropsNothing) {
   MeshData mesh = rectangle(-0.5f, -0.5f, 0.5f, 0.5f);
   const Result plain = draw(mesh, {});
   mesh.positions.insert(mesh.positions.end(), {kNan, kNan, kNan});
@@ -177,28 +177,29 @@ TEST(OddData, ANonFiniteVertexThatNoTriangleUsesDropsNone) {
   EXPECT_EQ(result.pixels, plain.pixels);
 }
 
-TEST(OddData, TrianglesWithoutAreaAreCountedAndDrawNothing) {
+TEST(FrameOddData, ZeroAreaTrianglesAreCountedAndDrawNothing) {
   MeshData mesh;
   mesh.positions = {0,     0,     0,    0,
                     0,     0,     0,    0,
-                    0,  // a point
+                    0,  // all corners at one point
                     -0.5f, -0.5f, 0,    0,
                     0,     0,     0.5f, 0.5f,
-                    0,  // a line
+                    0,  // collinear corners
                     0.1f,  0.1f,  0,    0.1f,
                     0.1f,  0,     0.5f, 0,
-                    0,  // two corners in one
+                    0,  // two equal corners
                     0.2f,  0.2f,  0,    0.2f + 1e-6f,
                     0.2f,  0,     0.2f, 0.2f + 1e-6f,
-                    0};  // below the grid of 1/256 pixel
-  const Result result = draw(mesh, {}), empty = draw({}, {});
+                    0};  // smaller than the grid of 1/256 pixel
+  const Result result = draw(mesh, {});
+  const Result empty = draw({}, {});
   EXPECT_EQ(result.stats.triangles_in, 4u);
   EXPECT_EQ(result.stats.zero_area, 4u);
   EXPECT_EQ(result.stats.shaded_pixels, 0u);
   EXPECT_EQ(result.pixels, empty.pixels);
 }
 
-TEST(OddData, EmptyMeshesDrawNothing) {
+TEST(FrameOddData, EmptyMeshesDrawNothing) {
   FrameBuffer buffer(kFormat);
   Frame frame(buffer);
   const std::vector<float> positions(9);
@@ -211,17 +212,17 @@ TEST(OddData, EmptyMeshesDrawNothing) {
   EXPECT_EQ(stats.shaded_pixels, 0u);
 }
 
-TEST(OddData, TrianglesBehindTheEyeAreOutside) {
+TEST(FrameOddData, TrianglesBehindTheEyeAreTriviallyRejected) {
   Camera camera;
   camera.projection = perspective(60, 9.0 / 7, 0.5, 50);
   MeshData mesh = row_of_triangles(6);
-  for (std::size_t i = 2; i < mesh.positions.size(); i += 3)
-    mesh.positions[i] = 3;  // the camera looks along -z
-  const Result behind = draw(mesh, {}, {.threads = 1}, camera), empty = draw({}, {}, {.threads = 1}, camera);
+  for (std::size_t i = 2; i < mesh.positions.size(); i += 3) mesh.positions[i] = 3;  // the camera faces -z
+  const Result behind = draw(mesh, {}, {.threads = 1}, camera);
+  const Result empty = draw({}, {}, {.threads = 1}, camera);
   EXPECT_EQ(behind.stats.trivially_rejected, 6u);
   EXPECT_EQ(behind.pixels, empty.pixels);
   for (std::size_t i = 2; i < mesh.positions.size(); i += 3)
-    mesh.positions[i] = 0;  // in the eye's own plane: w is 0
+    mesh.positions[i] = 0;  // in the eye's plane: w is 0
   EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.trivially_rejected, 6u);
   for (std::size_t i = 2; i < mesh.positions.size(); i += 3) mesh.positions[i] = -60;  // behind the far plane
   EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.trivially_rejected, 6u);
@@ -238,8 +239,8 @@ TEST(FrameStatistics, AddUpWithoutClipping) {
           mesh.positions.end(),
           {x + random.between(-size, size), y + random.between(-size, size), random.between(-0.9f, 0.9f)});
   };
-  for (int i = 0; i < 3000; ++i)
-    add(random.between(-2, 2), random.between(-2, 2), i % 3 == 0 ? 0.3f : i % 3 == 1 ? 0.02f : 1e-5f);
+  static constexpr float kSizes[] = {0.3f, 0.02f, 1e-5f};
+  for (int i = 0; i < 3000; ++i) add(random.between(-2, 2), random.between(-2, 2), kSizes[i % 3]);
   for (int i = 0; i < 40; ++i) mesh.positions[static_cast<std::size_t>(9 * 17 * i + i % 9)] = kNan;
   for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
     DrawState state;

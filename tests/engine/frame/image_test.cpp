@@ -1,5 +1,5 @@
-// Images with zoom: which texel each sample of a pixel sees, by a rule of its own in integers; and that what
-// happens to their pixels is what happens to those of triangles.
+// Images with zoom: the texel of each sample by an independent integer rule, and fragment operations that
+// match those of triangles.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,29 +18,33 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr int kWidth = 140, kHeight = 100;
-constexpr std::int64_t kUnit = 256;  // of a pixel: samples, positions and zooms are multiples of 1/256
+// Units per pixel: samples, positions and zooms are multiples of 1/256.
+constexpr std::int64_t kUnit = 256;
 
 struct OwnImage {
-  int width, height, channels;
-  std::vector<std::uint8_t> levels;  // from the lower left, without gaps
+  int width;
+  int height;
+  int channels;
+  std::vector<std::uint8_t> levels;  // row by row from the lower left, without gaps
   std::vector<std::uint8_t> memory;
   PixelImage image;
 
   OwnImage(Random& random, int w, int h, int c) : width(w), height(h), channels(c) {
-    const std::ptrdiff_t row = std::ptrdiff_t{w} * c, apart = row + below(random, 4);
-    memory.assign(static_cast<std::size_t>(apart * h), 0x55);
+    const std::ptrdiff_t row = std::ptrdiff_t{w} * c;
+    const std::ptrdiff_t pitch = row + below(random, 4);
+    memory.assign(static_cast<std::size_t>(pitch * h), 0x55);
     const bool upwards = random.next() % 2 == 0;
-    const std::ptrdiff_t top = upwards ? apart * (h - 1) : 0;
+    const std::ptrdiff_t top = upwards ? pitch * (h - 1) : 0;
     for (std::ptrdiff_t y = 0; y < h; ++y)
       for (std::ptrdiff_t i = 0; i < row; ++i) {
         levels.push_back(static_cast<std::uint8_t>(random.next()));
-        memory[static_cast<std::size_t>(upwards ? apart * y + i : apart * (h - 1 - y) + i)] = levels.back();
+        memory[static_cast<std::size_t>(upwards ? pitch * y + i : pitch * (h - 1 - y) + i)] = levels.back();
       }
     image = {.pixels = memory.data() + top,
              .width = w,
              .height = h,
              .channels = c,
-             .stride_bytes = upwards ? -apart : apart};
+             .stride_bytes = upwards ? -pitch : pitch};
   }
   // r g b a
   std::array<std::uint8_t, 4> texel(std::int64_t x, std::int64_t y) const {
@@ -54,8 +58,8 @@ struct OwnImage {
   }
 };
 
-// Of texels that begin at `start` and are `zoom` wide, the one with the place in it; its lower end belongs to
-// it, its upper one does not. -1: none.
+// Index of the texel that contains `place`, for texels of width `zoom` from `start`; -1 if there is none. A
+// texel includes its lower border and excludes its upper one.
 std::int64_t texel_of(std::int64_t start, std::int64_t zoom, int count, std::int64_t place) {
   for (std::int64_t n = 0; n < count; ++n) {
     const std::int64_t a = start + zoom * n, b = start + zoom * (n + 1);
@@ -79,7 +83,7 @@ std::int64_t random_zoom(Random& random) {
 
 class Images : public testing::TestWithParam<int> {};
 
-TEST_P(Images, ShowTheTexelsThatAnExactRuleSays) {
+TEST_P(Images, ShowTheTexelsOfAnExactRule) {
   const int samples = GetParam();
   for (const int tile_size : {32, 64, 128})
     for (const InstructionSet set : available_instruction_sets()) {
@@ -92,12 +96,12 @@ TEST_P(Images, ShowTheTexelsThatAnExactRuleSays) {
       std::vector<std::array<std::uint8_t, 4>> stored(pixel_count(buffer) * offsets.size());
       std::vector<OwnImage> images;
       images.reserve(40);
-      std::size_t apart = 0;
+      std::size_t differing = 0;
       for (int i = 0; i < 40; ++i) {
         OwnImage& own = images.emplace_back(random, 1 + static_cast<int>(below(random, 30)),
                                             1 + static_cast<int>(below(random, 30)), 1 + i % 4);
         const std::int64_t zoom_x = random_zoom(random), zoom_y = i % 3 == 0 ? zoom_x : random_zoom(random);
-        const bool whole = i % 4 == 0;  // borders on whole and half pixels, where centres are
+        const bool whole = i % 4 == 0;  // borders at whole and half pixels, on pixel centres
         const std::int64_t x =
             whole ? 128 * below(random, 2 * kWidth) : below(random, kUnit * (kWidth + 40)) - kUnit * 20;
         const std::int64_t y =
@@ -132,20 +136,21 @@ TEST_P(Images, ShowTheTexelsThatAnExactRuleSays) {
           expected = expected << 8 | (2 * sum + n) / (2 * n);
         }
         for (std::size_t s = 1; s < offsets.size(); ++s)
-          apart += stored[i * offsets.size() + s] == stored[i * offsets.size()] ? 0 : 1;
+          differing += stored[i * offsets.size() + s] == stored[i * offsets.size()] ? 0 : 1;
         ASSERT_EQ(words[i], expected) << i % kWidth << ' ' << i / kWidth << ", " << samples
                                       << " samples, tiles of " << tile_size << ", " << name(set);
       }
       if (samples > 1) {
-        EXPECT_GT(apart, 1000u) << "samples of a pixel see different texels";
+        EXPECT_GT(differing, 1000u) << "samples of one pixel show different texels";
       }
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(OfSamples, Images, testing::Values(1, 4, 8));
+INSTANTIATE_TEST_SUITE_P(Samples, Images, testing::Values(1, 4, 8));
 
-// Zooms and positions that no integer rule covers: neighbours share their border, whatever it rounds to.
-TEST(Image, LeavesNoPlaceOutAndTakesNoneTwice) {
+// Zooms and positions outside the integer rule: neighbouring texels share their border, however it is
+// rounded.
+TEST(Image, CoversEveryPixelExactlyOnce) {
   Random random(9);
   for (int turn = 0; turn < 300; ++turn) {
     const int width = 1 + static_cast<int>(below(random, 300)),
@@ -159,12 +164,13 @@ TEST(Image, LeavesNoPlaceOutAndTakesNoneTwice) {
     FrameBuffer buffer({.width = kWidth, .height = 8});
     Frame frame(buffer);
     frame.clear({.color = Color{0, 0, 0, 1}});
-    // Each fragment adds one level.
     frame.draw_image(image, {.depth = {.enabled = false},
                              .blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one}});
     Renderer({.threads = 1}).finish(frame);
-    const double a = image.x, b = image.x + image.zoom_x * width, bottom = image.y,
-                 top = image.y + image.zoom_y * height;
+    const double a = image.x;
+    const double b = image.x + image.zoom_x * width;
+    const double bottom = image.y;
+    const double top = image.y + image.zoom_y * height;
     const std::vector<std::uint32_t> words = packed_colors(buffer);
     for (int row = 0; row < 8; ++row)
       for (int column = 0; column < kWidth; ++column) {
@@ -176,7 +182,7 @@ TEST(Image, LeavesNoPlaceOutAndTakesNoneTwice) {
   }
 }
 
-TEST(Image, OfOneTexelGoesThroughEveryOperationAsTrianglesDo) {
+TEST(Image, SingleTexelPassesThroughEveryOperationLikeTriangles) {
   for (const FrameBufferFormat& format : operation_formats())
     for (int turn = 0; turn < 60; ++turn) {
       Random random(500 + static_cast<std::uint64_t>(turn));
@@ -185,8 +191,10 @@ TEST(Image, OfOneTexelGoesThroughEveryOperationAsTrianglesDo) {
       for (std::uint8_t& level : texel) level = static_cast<std::uint8_t>(random.next());
       const double depth = static_cast<double>(below(random, 257)) / 256;
       const FragmentState state = random_fragment_state(random, format, turn);
-      FrameBuffer by_image(format), by_triangles(format);
-      Frame image(by_image), triangles(by_triangles);
+      FrameBuffer by_image(format);
+      FrameBuffer by_triangles(format);
+      Frame image(by_image);
+      Frame triangles(by_triangles);
       draw_background(image, format);
       draw_background(triangles, format);
       PixelImage pixel{.pixels = texel, .width = 1, .height = 1, .depth = depth};
@@ -207,8 +215,8 @@ TEST(Image, OfOneTexelGoesThroughEveryOperationAsTrianglesDo) {
     }
 }
 
-// What a pixel blends with, is tested by and stores of alpha is its own texel's.
-TEST(Image, HasItsOwnAlphaInEachPixel) {
+// Blending, alpha test and stored alpha use the texel of each pixel.
+TEST(Image, UsesTheAlphaOfEachTexel) {
   Random random(3);
   OwnImage own(random, 37, 21, 4);
   FrameBuffer buffer({.width = 40, .height = 24, .alpha_bits = 8});
@@ -229,7 +237,7 @@ TEST(Image, HasItsOwnAlphaInEachPixel) {
     }
 }
 
-TEST(Image, GoesToTheNearestPaletteEntries) {
+TEST(Image, StoresTheNearestPaletteEntries) {
   const std::vector<Color> palette{{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}, {1, 1, 1, 1}};
   FrameBuffer buffer(
       {.width = 8, .height = 8, .color_mode = ColorMode::index, .color_bits = 4, .palette = palette});
@@ -243,7 +251,7 @@ TEST(Image, GoesToTheNearestPaletteEntries) {
             (std::vector<std::uint32_t>{9, 1, 2, 0, 3, 9, 9, 9}));
 }
 
-TEST(Image, IsADrawToCapturesExplanationsAndCounts) {
+TEST(Image, CountsAsADrawInCapturesExplanationsAndStatistics) {
   const std::vector<std::uint8_t> grey(16, 200);
   for (const bool with_operations : {false, true}) {
     FrameBuffer buffer({.width = 40, .height = 40, .samples = with_operations ? 4 : 1});
@@ -267,7 +275,8 @@ TEST(Image, IsADrawToCapturesExplanationsAndCounts) {
                 AllOf(HasSubstr("an image of 4 x 4, 1 channel: each pixel has the colour of its texel"),
                       HasSubstr("depth test")));
     EXPECT_THAT(frame.explain(2), HasSubstr("can change no pixel: left out"));
-    std::vector<std::uint32_t> draw_ids(pixel_count(buffer)), primitive_ids(draw_ids.size());
+    std::vector<std::uint32_t> draw_ids(pixel_count(buffer));
+    std::vector<std::uint32_t> primitive_ids(draw_ids.size());
     std::vector<float> normals(3 * draw_ids.size());
     frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals});
     const FrameStats stats = Renderer({.threads = 1, .count_fragments = true}).finish(frame);
@@ -284,22 +293,23 @@ TEST(Image, IsADrawToCapturesExplanationsAndCounts) {
   }
 }
 
-TEST(Image, MayBeAnywhereAndOfAnySize) {
+TEST(Image, AnyPositionAndSizeIsAccepted) {
   const std::uint8_t white = 255;
-  const double most = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::denorm_min();
+  const double huge = std::numeric_limits<double>::max();
+  const double tiny = std::numeric_limits<double>::denorm_min();
   struct Case {
     double x, y, zoom_x, zoom_y;
     bool everywhere;
   };
   const Case cases[] = {{-1e6, -1e6, 1e7, 1e7, true},
-                        {most, 0, -most, 50, true},
-                        {-most, 0, most, 50, false},
-                        {-1e9, -1e9, most, most, true},
+                        {huge, 0, -huge, 50, true},
+                        {-huge, 0, huge, 50, false},
+                        {-1e9, -1e9, huge, huge, true},
                         {0, 0, 0, 50, false},
                         {0, 0, 50, -0.0, false},
-                        {0, 0, least, least, false},
-                        {0, 0, -most, 50, false},
-                        {50, 50, -most, -most, true},
+                        {0, 0, tiny, tiny, false},
+                        {0, 0, -huge, 50, false},
+                        {50, 50, -huge, -huge, true},
                         {1e300, 1e300, 9, 9, false},
                         {-1e300, -1e300, 1e305, 1e305, true}};
   for (const Case& c : cases) {
@@ -320,10 +330,10 @@ TEST(Image, MayBeAnywhereAndOfAnySize) {
   }
 }
 
-TEST(Image, RefusesWhatItCannotDraw) {
+TEST(Image, InvalidImagesAreRefused) {
   const std::vector<std::uint8_t> bytes(64, 1);
-  const double nan = std::numeric_limits<double>::quiet_NaN(),
-               infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
   FrameBuffer buffer({.width = 16, .height = 16});
   const auto of = [&](const auto& change) {
     PixelImage image{.pixels = bytes.data(), .width = 4, .height = 4};

@@ -1,4 +1,4 @@
-// Lighting of indices, by hand where numbers are few.
+// Lighting in colour-index mode; small cases are computed by hand.
 #include <array>
 
 #include "tests/engine/frame/index_pictures.h"
@@ -9,12 +9,13 @@ namespace {
 using namespace test;
 
 // L = S = (0, 0, 1), n = (0.6, 0, 0.8): d is 0.8 and s is 0.64, each times a luminance.
-TEST(IndexLighting, HasTheNumbersOfTheFormula) {
+TEST(IndexLighting, MatchesTheFormula) {
   const MeshData mesh = with_normals(0.6f, 0, 0.8f);
   const auto light = [](Color diffuse, Color specular) {
     return Light{.ambient = {9, 9, 9, 1}, .diffuse = diffuse, .specular = specular};
   };
-  const Color black{0, 0, 0, 1}, white{1, 1, 1, 1};
+  const Color black{0, 0, 0, 1};
+  const Color white{1, 1, 1, 1};
   struct Case {
     std::array<float, 3> indexes;
     std::vector<Light> lights;
@@ -24,14 +25,14 @@ TEST(IndexLighting, HasTheNumbersOfTheFormula) {
       {{10, 30, 50}, {Light{}}, 41},                               // 10 + 0.8 0.36 20 + 0.64 40 = 41.36
       {{10, 30, 50}, {light({0.5f, 0, 0, 1}, {0, 1, 0, 1})}, 27},  // d 0.12, s 0.3776: 26.6
       {{10, 30, 50}, {light({0, 0, 0.5f, 1}, {0, 0, 1, 1})}, 14},  // d 0.044, s 0.0704: 13.6
-      {{10, 30, 50}, {light(white, {2, 2, 2, 1})}, 50},            // s 1.28: 56.7, at most the specular index
+      {{10, 30, 50}, {light(white, {2, 2, 2, 1})}, 50},  // s 1.28: 56.7, clamped to the specular index
       {{10, 30, 60}, {light({2, 2, 2, 1}, black), light(white, black)}, 58},  // d 2.4 is not clamped
       {{10, 30, 60}, {light(white, black), light({-1.5f, -1.5f, -1.5f, 1}, black)}, 2},  // d -0.4
       {{10, 30, 60}, {light({-1, -1, -1, 1}, black)}, 58},                               // d -0.8: -6, masked
       {{60, 100, 100}, {light(white, black)}, 28},                                       // 92, masked
       {{7, 30, 60}, {light(black, black)}, 7},
       {{70, 30, 90}, {}, 6},
-      {{20, 20, 50}, {Light{}}, 39},  // d does not matter: 20 + 0.64 30
+      {{20, 20, 50}, {Light{}}, 39},  // d has no effect: 20 + 0.64 30
       {{30, 10, 30}, {Light{}}, 24},  // 30 - 0.8 0.36 20 = 24.24
       {{20, 20, 20}, {Light{}}, 20},
   };
@@ -47,7 +48,7 @@ TEST(IndexLighting, HasTheNumbersOfTheFormula) {
   }
 }
 
-TEST(IndexLighting, OfMeshesWithoutNormalsHasThoseOfTheFaces) {
+TEST(IndexLighting, MeshesWithoutNormalsUseFaceNormals) {
   for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
     DrawState state;
     state.shading = shading;
@@ -59,14 +60,15 @@ TEST(IndexLighting, OfMeshesWithoutNormalsHasThoseOfTheFaces) {
   }
 }
 
-TEST(IndexLighting, GoesByTheMaterialOfEachFace) {
+TEST(IndexLighting, UsesTheMaterialOfEachFace) {
   const MeshData mesh = two_faces();
   Material white;
   white.ambient = white.diffuse = {0, 0, 0, 1};
   white.emission = {1, 1, 1, 1};
   const Material first = index_material(20, 40, 40, 0), second = index_material(0, 33, 33, 0);
   struct Case {
-    Material front, back;
+    Material front;
+    Material back;
     std::uint32_t left, right;
   };
   const Case cases[] = {
@@ -93,7 +95,7 @@ TEST(IndexLighting, GoesByTheMaterialOfEachFace) {
   }
 }
 
-TEST(IndexLighting, OfConstantFacesIsEachOnesOwn) {
+TEST(IndexLighting, ConstantFacesUseTheirMaterials) {
   const MeshData mesh = two_faces();
   DrawState state;
   state.material = index_material(20, 40, 40, 0);

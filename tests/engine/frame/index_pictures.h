@@ -1,4 +1,5 @@
-// Pictures of index buffers, for tests: frames drawn to words, triangles and states with few numbers.
+// Pictures of colour-index buffers, for tests: rendering to stored indices, and triangles and states with few
+// parameters.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -27,8 +28,8 @@ inline PackedColors drawn(const FrameBufferFormat& format, const Record& record,
   return packed_colors(buffer);
 }
 
-// Covers the window; at pixel (x, y) from the lower left what is interpolated is a + (b - a) (x + 0.5) / 128
-// + (c - a) (y + 0.5) / 64.
+// Covers the window. At pixel (x, y) from the lower left the interpolated value is a + (b - a) (x + 0.5) /
+// 128 + (c - a) (y + 0.5) / 64.
 inline MeshData large_triangle(float a, float b, float c) {
   MeshData mesh;
   mesh.positions = {-1, -1, 0, 3, -1, 0, -1, 3, 0};
@@ -43,8 +44,8 @@ inline DrawState index_state(Shading shading = Shading::gouraud) {
   return state;
 }
 
-// The same picture by every way through the pixels: at once or later, with operations whose order matters or
-// does not.
+// States that draw the same picture on every pixel path: immediate, deferred, and with order-dependent or
+// order-independent operations.
 inline std::vector<DrawState> every_pixel_path(const DrawState& plain) {
   std::vector<DrawState> states(4, plain);
   states[1].logic_op = LogicOp::bit_or;
@@ -80,7 +81,7 @@ inline Material index_material(float ambient, float diffuse, float specular, flo
   return material;
 }
 
-// The left half faces the viewer, the right one is seen from behind.
+// The left half faces the viewer, the right half faces away.
 inline MeshData two_faces() {
   MeshData mesh = rectangle(-1, -1, 0, 1);
   const MeshData right = rectangle(0, -1, 1, 1);

@@ -1,4 +1,4 @@
-// Buffers of one and two bits hold the luminance of colours that are within 0 .. 1, however these came about.
+// Buffers of one and two bits hold the luminance of colours clamped to 0 .. 1, for every source of colour.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::vector<std::uint32_t> drawn(const MeshData& mesh, const DrawState& state, i
   return packed_colors(buffer);
 }
 
-TEST(Luminance, IsOfClampedColors) {
+TEST(Luminance, IsComputedFromClampedColors) {
   const Color colors[] = {{2, 0, 0, 1},     {-1, 1, 0, 1}, {0, 0, 5, 1},         {0.2f, -3, 9, 1},
                           {0, 1.5f, -2, 1}, {7, 7, 7, 1},  {0.4f, 0.6f, 0.5f, 1}};
   for (const int bits : {1, 2})
@@ -32,7 +32,10 @@ TEST(Luminance, IsOfClampedColors) {
       MeshData colored = plain;
       for (std::size_t v = 0; v < plain.positions.size() / 3; ++v)
         colored.colors.insert(colored.colors.end(), {c.r, c.g, c.b, c.a});
-      DrawState unlit_state = unlit(c), tested = unlit_state, lit, per_pixel;
+      DrawState unlit_state = unlit(c);
+      DrawState tested = unlit_state;
+      DrawState lit;
+      DrawState per_pixel;
       tested.alpha_test = AlphaTest{.func = Compare::gequal, .ref = 0};
       lit.material.emission = per_pixel.material.emission = c;
       per_pixel.shading = Shading::phong;

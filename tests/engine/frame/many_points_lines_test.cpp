@@ -1,5 +1,6 @@
-// Points and lines by the thousand, in the long tests a million of each, in one draw: every pixel against the
-// rules in exact integers. Many leave the window, and many lines are cut at the near or far plane.
+// Thousands of points and lines in one draw (a million of each in the long tests): every pixel is compared
+// with the rules in exact integers. Many are partly outside the window; many lines are cut at the near or far
+// plane.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,10 +16,11 @@ namespace {
 
 using namespace test;
 
-constexpr int kWidth = 1024,
-              kHeight = 512;  // powers of two: every 1/256 pixel is a float's window coordinate, exactly
+// Powers of two: every multiple of 1/256 pixel is exact in a float's window coordinate.
+constexpr int kWidth = 1024;
+constexpr int kHeight = 512;
 
-/// A mesh, and the pixels of each of its elements.
+/// A mesh and the pixels of each of its elements.
 struct Elements {
   MeshData mesh;
   std::vector<std::uint32_t> words;
@@ -43,19 +45,19 @@ LinePoint somewhere(Random& random) {
 }
 int count() { return long_tests() ? 1'000'000 : 20'000; }
 
-// Squares of 3 pixels, around the pixel that holds the point. Of some the centre is before the near plane or
-// behind the far one.
+// Squares of 3 pixels around the pixel that holds the point. Some points lie in front of the near plane or
+// behind the far plane.
 Elements random_points(std::uint64_t seed) {
   Random random(seed);
   Elements points(Primitive::points);
   for (int i = 0; i < count(); ++i) {
     LinePoint p = somewhere(random);
-    if (i % 3 == 0) p = {p.x & ~127, p.y & ~127};  // centres, borders and corners of pixels
+    if (i % 3 == 0) p = {p.x & ~127, p.y & ~127};  // pixel centres, borders and corners
     const std::uint32_t word = random.next() & 0xffffff;
     const float z = i % 8 == 0 ? random.between(-2, 2) : 0;
     points.add(p, z, word);
     points.words.push_back(word);
-    // Of a border, the pixel to the right or above has the point; the view volume has its own border.
+    // A point on a border belongs to the pixel to the right or above; the view volume includes its border.
     const bool is_in_view =
         z >= -1 && z <= 1 && p.x >= 0 && p.x <= kWidth * 256 && p.y >= 0 && p.y <= kHeight * 256;
     std::vector<std::pair<int, int>> pixels;
@@ -66,24 +68,27 @@ Elements random_points(std::uint64_t seed) {
   return points;
 }
 
-// A quarter of the lines ends outside of the near or far plane, at half, a quarter or three quarters of its
-// length: there it is cut in whole units of 1/256 pixel.
+// A quarter of the lines ends outside the near or far plane and is cut at a quarter, half or three quarters
+// of its length, which is a whole multiple of 1/256 pixel.
 Elements random_lines(std::uint64_t seed) {
   Random random(seed);
   Elements lines(Primitive::lines);
   for (int i = 0; i < count(); ++i) {
     LinePoint a = somewhere(random);
     if (i % 3 == 0) a = {a.x & ~127, a.y & ~127};
-    const int unit = i % 3 == 1 ? 128 : 4, reach = (i % 16 == 0 ? 40 : 8) * 256 / unit;
+    const int unit = i % 3 == 1 ? 128 : 4;
+    const int reach = (i % 16 == 0 ? 40 : 8) * 256 / unit;
     LinePoint b{a.x + unit * about(random, reach), a.y + unit * about(random, reach)};
     const std::uint32_t word = random.next() & 0xffffff;
     LinePoint from = a, to = b;
     float z[2] = {0, 0};
     if (i % 4 == 0) {
-      // From 1 inside of the plane to 1, 3 or 1/3 outside.
-      const int quarters = 1 + below(random, 3), end = below(random, 2),
-                side = below(random, 2) != 0 ? 1 : -1;
-      z[end] = static_cast<float>(side) * (quarters == 1 ? 4.0f : quarters == 2 ? 2.0f : 1.25f);
+      // From distance 1 inside the plane to 1, 3 or 1/3 outside.
+      static constexpr float kOuterDepth[] = {0, 4.0f, 2.0f, 1.25f};  // by quarters
+      const int quarters = 1 + below(random, 3);
+      const int end = below(random, 2);
+      const int side = below(random, 2) != 0 ? 1 : -1;
+      z[end] = static_cast<float>(side) * kOuterDepth[quarters];
       z[1 - end] = quarters == 3 ? static_cast<float>(side) * 0.25f : 0.0f;
       const LinePoint inner = end == 1 ? a : b, outer = end == 1 ? b : a;
       const LinePoint cut{inner.x + (outer.x - inner.x) / 4 * quarters,
@@ -121,7 +126,7 @@ std::size_t differing(const std::vector<std::uint32_t>& a, const std::vector<std
   return n;
 }
 
-// Stored, the last one of a pixel is seen; exclusive or tells of each one that is too many or too few.
+// Stored colours show the last element of a pixel; an exclusive or shows every missing or extra one.
 void expect_by_the_rules(const Elements& elements) {
   DrawState state;
   state.lighting = false;

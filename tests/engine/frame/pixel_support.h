@@ -1,4 +1,4 @@
-// What the tests of bitmaps and images share: states of every operation, and the buffers to try them in.
+// Shared by the tests of bitmaps and images: states for every operation, and buffers for them.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ inline std::int64_t below(Random& random, std::int64_t n) {
   return static_cast<std::int64_t>(random.next()) % n;
 }
 
-/// The colour that 24 bits store as this word.
+/// The colour whose packed 24-bit value is `word`.
 inline Color color_of(std::uint32_t word) {
   return {static_cast<float>(word >> 16 & 255) / 255.0f, static_cast<float>(word >> 8 & 255) / 255.0f,
           static_cast<float>(word & 255) / 255.0f, 1};
@@ -49,7 +49,7 @@ inline std::string describe(const FrameBufferFormat& f) {
          std::to_string(static_cast<int>(f.depth)) + ", " + std::to_string(f.samples) + " samples";
 }
 
-/// Each operation has its turn.
+/// A random state; every operation occurs.
 inline FragmentState random_fragment_state(Random& random, const FrameBufferFormat& format, int turn) {
   const bool is_index = format.color_mode == ColorMode::index;
   const auto coin = [&] { return random.next() % 2 == 0; };
@@ -104,12 +104,13 @@ inline DrawState draw_state_of(const FragmentState& s) {
   return d;
 }
 
-/// Something in every buffer: colours and depths that change from place to place, stencil values in stripes.
-/// The meshes are static.
+/// Fills every buffer: colours and depths that vary over the window, stencil values in stripes. The meshes
+/// are static.
 inline void draw_background(Frame& frame, const FrameBufferFormat& format) {
   static const MeshData slope = [] {
     MeshData mesh = whole_window();
-    for (std::size_t v = 0; v < 4; ++v) mesh.positions[3 * v + 2] = v == 0 ? -1.0f : v == 2 ? 0.9f : 0.1f;
+    constexpr float kDepths[] = {-1.0f, 0.1f, 0.9f, 0.1f};
+    for (std::size_t v = 0; v < 4; ++v) mesh.positions[3 * v + 2] = kDepths[v];
     mesh.colors = {0.9f, 0.2f, 0.1f, 0.8f, 0.1f, 0.9f, 0.3f, 0.3f, 0.2f, 0.1f, 1, 1, 0.7f, 0.7f, 0, 0.1f};
     return mesh;
   }();

@@ -1,5 +1,5 @@
-// Points and lines as callers see them: which pixels and samples they cover, by rules of their own in exact
-// integers, what is left of them where clipping cuts them, and whose colours they have.
+// Points and lines through the public interface: covered pixels and samples by independent rules in exact
+// integers, clipping, and the source of their colours.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,14 +21,15 @@ using testing::AllOf;
 using testing::Each;
 using testing::HasSubstr;
 
-constexpr int kWidth = 256,
-              kHeight = 128;  // powers of two: every 1/256 pixel is a float's window coordinate, exactly
+// Powers of two: every multiple of 1/256 pixel is exact in a float's window coordinate.
+constexpr int kWidth = 256;
+constexpr int kHeight = 128;
 
 FrameBufferFormat format_of(int samples) { return {.width = kWidth, .height = kHeight, .samples = samples}; }
 
 std::int64_t below(Random& random, std::int64_t n) { return static_cast<std::int64_t>(random.next()) % n; }
 
-// In 1/256 pixel, y down from the top row; up to `beyond` pixels outside of the window.
+// In 1/256 pixel, y down from the top row; up to `beyond` pixels outside the window.
 LinePoint random_point(Random& random, int beyond) {
   return {static_cast<std::int32_t>(below(random, (kWidth + 2 * beyond) * 256) - beyond * 256),
           static_cast<std::int32_t>(below(random, (kHeight + 2 * beyond) * 256) - beyond * 256)};
@@ -50,7 +51,7 @@ MeshData mesh_of(Primitive primitive, const std::vector<LinePoint>& points) {
   return mesh;
 }
 
-// One more in each pixel for each fragment there.
+// Adds 1 to each pixel per fragment.
 DrawState counting() {
   DrawState state = unlit({1 / 255.0f, 1 / 255.0f, 1 / 255.0f, 1});
   state.depth.enabled = false;
@@ -79,11 +80,11 @@ std::vector<std::uint32_t> words_of(const PixelSet& pixels, std::uint32_t word) 
   return words;
 }
 
-// y up: around the pixel that holds the point, or around the nearest corner of pixels [GL 2.1, 3.3].
+// y up: centred on the pixel that holds the point, or on the nearest pixel corner [GL 2.1, 3.3].
 PixelSet square_by_the_rule(const LinePoint& at, int size) {
   const double x = at.x / 256.0, y = kHeight - at.y / 256.0;
-  const double center_x = size % 2 != 0 ? std::floor(x) + 0.5 : std::floor(x + 0.5),
-               center_y = size % 2 != 0 ? std::floor(y) + 0.5 : std::floor(y + 0.5);
+  const double center_x = size % 2 != 0 ? std::floor(x) + 0.5 : std::floor(x + 0.5);
+  const double center_y = size % 2 != 0 ? std::floor(y) + 0.5 : std::floor(y + 0.5);
   PixelSet pixels;
   for (int j = 0; j < kHeight; ++j)
     for (int i = 0; i < kWidth; ++i)
@@ -93,7 +94,8 @@ PixelSet square_by_the_rule(const LinePoint& at, int size) {
 }
 PixelSet wide_by_the_rule(LinePoint a, LinePoint b, int width) {
   const bool x_major = std::abs(b.x - a.x) >= std::abs(b.y - a.y);
-  const int aside = 128 * (width - 1);  // y up: moved by -(w - 1) / 2, then repeated w times [GL 2.1, 3.4.2]
+  // y up: shifted by -(w - 1) / 2, then repeated w times [GL 2.1, 3.4.2].
+  const int aside = 128 * (width - 1);
   (x_major ? a.y : a.x) += x_major ? aside : -aside;
   (x_major ? b.y : b.x) += x_major ? aside : -aside;
   PixelSet pixels;
@@ -107,7 +109,7 @@ TEST(Points, CoverTheSquareOfTheirSize) {
   Random random(51);
   for (int turn = 0; turn < 200; ++turn) {
     LinePoint at = random_point(random, 0);
-    if (turn % 4 == 0) at = {at.x & ~127, at.y & ~127};  // on centres, borders and corners
+    if (turn % 4 == 0) at = {at.x & ~127, at.y & ~127};  // pixel centres, borders and corners
     const float size = turn % 3 == 0   ? 1.0f
                        : turn % 3 == 1 ? static_cast<float>(1 + below(random, 40))
                                        : random.between(0.01f, 9.4f);
@@ -120,7 +122,7 @@ TEST(Points, CoverTheSquareOfTheirSize) {
   }
 }
 
-TEST(Points, AreThereIfTheirCentersAreInTheViewVolume) {
+TEST(Points, AreDrawnIfTheirCentreIsInTheViewVolume) {
   Renderer renderer({.threads = 1});
   for (const int axis : {0, 1, 2})
     for (const float side : {-1.0f, 1.0f})
@@ -134,11 +136,13 @@ TEST(Points, AreThereIfTheirCentersAreInTheViewVolume) {
         state.depth.enabled = false;
         const std::vector<std::uint32_t> words = drawn(mesh, state, renderer);
         const auto count = std::count(words.begin(), words.end(), 0xffffffu);
-        EXPECT_EQ(count, !inside ? 0 : axis == 2 ? 64 : 32) << "axis " << axis << ", " << side;
+        // Only x and y at the border of the view volume cut the square in half.
+        const int fragments = axis == 2 ? 64 : 32;
+        EXPECT_EQ(count, inside ? fragments : 0) << "axis " << axis << ", " << side;
       }
 }
 
-TEST(Lines, LeaveTheDiamondsOfTheirPixels) {
+TEST(Lines, CoverThePixelsWhoseDiamondTheyExit) {
   Renderers renderers;
   Random random(52);
   for (int turn = 0; turn < 300; ++turn) {
@@ -156,8 +160,8 @@ TEST(Lines, LeaveTheDiamondsOfTheirPixels) {
   }
 }
 
-// Each pixel once, though a strip has many joints: they go on in one octant.
-TEST(Lines, OfAStripHaveNoGapsAndNoPixelTwice) {
+// Each pixel once, across many joints: the strip stays in one octant.
+TEST(Lines, StripsHaveNoGapsAndNoRepeatedPixels) {
   Renderer renderer({.threads = 2, .tile_size = 32});
   Random random(53);
   for (int turn = 0; turn < 100; ++turn) {
@@ -165,8 +169,8 @@ TEST(Lines, OfAStripHaveNoGapsAndNoPixelTwice) {
     LinePoint at{kWidth * 128, kHeight * 128};
     std::vector<LinePoint> strip{at};
     for (int segment = 0; segment < 12; ++segment) {
-      const int along = 1 + static_cast<int>(below(random, 1400)),
-                across = static_cast<int>(below(random, along));
+      const int along = 1 + static_cast<int>(below(random, 1400));
+      const int across = static_cast<int>(below(random, along));
       const int x = (octant & 1) != 0 ? along : across, y = (octant & 1) != 0 ? across : along;
       at = {at.x + ((octant & 2) != 0 ? x : -x), at.y + ((octant & 4) != 0 ? y : -y)};
       strip.push_back(at);
@@ -180,14 +184,14 @@ TEST(Lines, OfAStripHaveNoGapsAndNoPixelTwice) {
     for (int i = 0; i < ((octant & 1) != 0 ? kWidth : kHeight); ++i)
       for (int j = 0; j < ((octant & 1) != 0 ? kHeight : kWidth); ++j)
         steps += words[static_cast<std::size_t>((octant & 1) != 0 ? j * kWidth + i : i * kWidth + j)] != 0;
-    const std::int32_t from = (octant & 1) != 0 ? strip.front().x : strip.front().y,
-                       to = (octant & 1) != 0 ? at.x : at.y,
-                       most = 256 * ((octant & 1) != 0 ? kWidth : kHeight);
+    const std::int32_t from = (octant & 1) != 0 ? strip.front().x : strip.front().y;
+    const std::int32_t to = (octant & 1) != 0 ? at.x : at.y;
+    const std::int32_t most = 256 * ((octant & 1) != 0 ? kWidth : kHeight);
     ASSERT_NEAR(steps, std::abs(std::clamp(to, 0, most) - from) / 256.0, 1.01) << "strip " << turn;
   }
 }
 
-TEST(Lines, OfALoopComeBackToTheStart) {
+TEST(Lines, LoopsReturnToTheStart) {
   Renderer renderer({.threads = 1});
   const std::vector<LinePoint> square{{10 * 256 + 128, 10 * 256 + 128},
                                       {50 * 256 + 128, 10 * 256 + 128},
@@ -199,10 +203,11 @@ TEST(Lines, OfALoopComeBackToTheStart) {
   EXPECT_EQ(drawn(mesh_of(Primitive::line_loop, square), counting(), renderer), words_of(expected, 0x010101));
 }
 
-// The patterns of Direct3D 11, in 1/16 pixel from the centre, y down.
+// Sample positions of Direct3D 11, in 1/16 pixel from the centre, y down.
 const std::vector<LinePoint>& pattern(int samples) {
-  static const std::vector<LinePoint> kFour{{-2, -6}, {6, -2}, {-6, 2}, {2, 6}},
-      kEight{{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
+  static const std::vector<LinePoint> kFour{{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
+  static const std::vector<LinePoint> kEight{{1, -3}, {-1, 3},  {5, 1}, {-3, -5},
+                                             {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
   return samples == 4 ? kFour : kEight;
 }
 template <class Covers>
@@ -219,7 +224,7 @@ std::vector<std::uint32_t> means(int samples, const Covers& covers) {
   return words;
 }
 
-TEST(Points, OfSamplesAreDiscs) {
+TEST(Points, AreDiscsWithSeveralSamples) {
   Renderers renderers;
   Random random(54);
   for (int turn = 0; turn < 60; ++turn) {
@@ -238,30 +243,31 @@ TEST(Points, OfSamplesAreDiscs) {
   }
 }
 
-TEST(Lines, OfSamplesAreRectangles) {
+TEST(Lines, AreRectanglesWithSeveralSamples) {
   Renderers renderers;
   Random random(55);
   for (int turn = 0; turn < 80; ++turn) {
     const int samples = turn % 2 == 0 ? 4 : 8;
     const LinePoint a = random_point(random, 0);
     LinePoint b = turn % 4 < 2 ? near(random, a, 1500) : random_point(random, 0);
-    if (turn % 5 == 0) b.x = a.x;  // sides through samples
+    if (turn % 5 == 0) b.x = a.x;  // sides through sample positions
     if (turn % 5 == 1) b.y = a.y;
     DrawState state = unlit({1, 1, 1, 1});
     const std::int64_t width = turn % 5 < 2 ? 16 * (1 + below(random, 200)) : 1 + below(random, 12 * 256);
     state.line_width = static_cast<float>(width) / 256;
-    const std::int64_t dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
-    // Inside of a side, or on it where it is a left or top one: where `inside` is positive is to its right,
-    // or below.
+    const std::int64_t dx = b.x - a.x;
+    const std::int64_t dy = b.y - a.y;
+    const std::int64_t squared = dx * dx + dy * dy;
+    // Inside a side, or on it if it is a left or top side: its positive half-plane is to its right or below.
     const auto within = [](Wide inside, std::int64_t way_x, std::int64_t way_y) {
       return inside > 0 || (inside == 0 && (way_x > 0 || (way_x == 0 && way_y > 0)));
     };
     const std::vector<std::uint32_t> expected = means(samples, [&](const LinePoint& p) {
-      const std::int64_t along = dx * (p.x - a.x) + dy * (p.y - a.y),
-                         across = dx * (p.y - a.y) - dy * (p.x - a.x);
-      // |across| against width / 2 * length, squared with its sign.
-      const Wide half = Wide{width} * width * squared,
-                 aside = 4 * Wide{across} * across * (across < 0 ? -1 : 1);
+      const std::int64_t along = dx * (p.x - a.x) + dy * (p.y - a.y);
+      const std::int64_t across = dx * (p.y - a.y) - dy * (p.x - a.x);
+      // |across| compared with width / 2 * length, as signed squares.
+      const Wide half = Wide{width} * width * squared;
+      const Wide aside = 4 * Wide{across} * across * (across < 0 ? -1 : 1);
       return squared != 0 && within(along, dx, dy) && within(squared - along, -dx, -dy) &&
              within(half - aside, dy, -dx) && within(half + aside, -dy, dx);
     });
@@ -271,14 +277,15 @@ TEST(Lines, OfSamplesAreRectangles) {
   }
 }
 
-// What Mesa's software driver is known to get wrong: the vertex that decides may be the one that is cut away.
-TEST(Lines, KeepTheirFlatColorWhereTheyAreClipped) {
+// A known bug of Mesa's software driver: the provoking vertex may be the clipped one.
+TEST(Lines, KeepTheirFlatColorIfClipped) {
   Renderer renderer({.threads = 1});
   for (const ProvokingVertex convention : {ProvokingVertex::last, ProvokingVertex::first})
     for (const bool turned : {false, true}) {
       MeshData mesh;
       mesh.primitive = Primitive::lines;
-      mesh.positions = {-0.8f, 0.3f, 0.5f, 0.8f, -0.2f, -3};  // the second is before the near plane
+      // The second vertex is in front of the near plane.
+      mesh.positions = {-0.8f, 0.3f, 0.5f, 0.8f, -0.2f, -3};
       mesh.colors = {1, 0, 0, 1, 0, 1, 0, 1};
       if (turned) mesh.indices = {1, 0};
       DrawState state;
@@ -292,8 +299,8 @@ TEST(Lines, KeepTheirFlatColorWhereTheyAreClipped) {
     }
 }
 
-// A clipped line is a part of the whole one: where it goes and what it shows.
-TEST(Lines, ClippedAtTheNearPlaneAreAPartOfTheWhole) {
+// A clipped line covers a subset of the pixels of the unclipped line, in the same colours.
+TEST(Lines, ClippedAtTheNearPlaneCoverASubset) {
   Renderer renderer({.threads = 1});
   MeshData mesh;
   mesh.primitive = Primitive::lines;
@@ -302,30 +309,32 @@ TEST(Lines, ClippedAtTheNearPlaneAreAPartOfTheWhole) {
   DrawState state;
   state.lighting = false;
   const std::vector<std::uint32_t> cut = drawn(mesh, state, renderer);
-  mesh.positions[2] = 0.05f, mesh.positions[5] = -0.15f;  // the same in the window
+  mesh.positions[2] = 0.05f, mesh.positions[5] = -0.15f;  // the same end points in the window
   const std::vector<std::uint32_t> whole = drawn(mesh, state, renderer);
-  int both = 0, differ = 0;
+  int both = 0;
+  int differ = 0;
   for (std::size_t i = 0; i < cut.size(); ++i) {
     both += cut[i] != 0 && whole[i] != 0;
     differ += cut[i] != 0 && cut[i] != whole[i];
   }
-  EXPECT_NEAR(both, 0.75 * 0.75 * kWidth, 1);  // three quarters of it are behind the near plane
-  EXPECT_LE(differ, 2);                        // rounding of a level at most
+  EXPECT_NEAR(both, 0.75 * 0.75 * kWidth, 1);  // three quarters of it lie beyond the near plane
+  EXPECT_LE(differ, 2);                        // rounding, by at most one level
 }
 
-// So wide a line has pixels far beyond its ends, at one of which, (11, 28), the sum of the ends' weights is
-// 0: there is no perspective there, but what is the same at both ends still is.
-TEST(Lines, KeepTheColorOfBothEndsWhereTheirWeightsCancel) {
-  const float positions[] = {-0.671875f, -0.359375f, 0, 1, -1.21875f, -0.65625f, 0, 2},
-              colors[] = {1, 0, 0, 1, 1, 0, 0, 1};
+// A line this wide has pixels far beyond its ends. At one of them, (11, 28), the weights of the ends sum to
+// 0: perspective is undefined there, but values that are equal at both ends must be kept.
+TEST(Lines, KeepTheColorOfBothEndsIfTheirWeightsCancel) {
+  const float positions[] = {-0.671875f, -0.359375f, 0, 1, -1.21875f, -0.65625f, 0, 2};
+  const float colors[] = {1, 0, 0, 1, 1, 0, 0, 1};
   const std::uint8_t texels[] = {255, 255, 255, 255, 255, 255, 255, 255};
   const Texture texture({.pixels = texels, .width = 2, .height = 1},
                         {.mag = TextureFilter::nearest, .min = TextureFilter::nearest});
   DrawState plain = unlit({1, 1, 1, 1});
   plain.line_width = 20;
-  DrawState blended = plain, textured = plain;
-  blended.blend = BlendState{.src = BlendFactor::one,
-                             .dst = BlendFactor::one_minus_dst_alpha};  // the buffer's alpha is 1
+  DrawState blended = plain;
+  DrawState textured = plain;
+  blended.blend =
+      BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_dst_alpha};  // destination alpha is 1
   textured.texture = &texture;
   for (const InstructionSet set : available_instruction_sets()) {
     Renderer renderer({.threads = 1, .instruction_set = set});
@@ -345,7 +354,7 @@ TEST(Lines, KeepTheColorOfBothEndsWhereTheirWeightsCancel) {
   }
 }
 
-TEST(Lines, AreFrontsThatNothingCulls) {
+TEST(Lines, AreFrontFacingAndNeverCulled) {
   Renderer renderer({.threads = 1});
   for (const Primitive primitive : {Primitive::points, Primitive::lines})
     for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
@@ -357,16 +366,16 @@ TEST(Lines, AreFrontsThatNothingCulls) {
     }
 }
 
-// A line's first pixel may lie before its start: its index leaves the range at one end and comes back at the
+// A line's first pixel may lie before its start: its index leaves the range at one end and wraps to the
 // other.
-TEST(Lines, OfIndicesWrapAround) {
+TEST(Lines, IndicesWrapAround) {
   for (const InstructionSet set : available_instruction_sets()) {
     FrameBuffer buffer({.width = 32, .height = 16, .color_mode = ColorMode::index, .color_bits = 4});
     Frame frame(buffer);
     MeshData mesh;
     mesh.primitive = Primitive::lines;
     mesh.positions = {2 * 10.703125f / 32 - 1, 1.0f / 16, 0,
-                      2 * 14.703125f / 32 - 1, 1.0f / 16, 0};  // on a row's centre
+                      2 * 14.703125f / 32 - 1, 1.0f / 16, 0};  // on the centre of a row
     mesh.color_indices = {0, 15};
     frame.draw(mesh.view(), unlit({1, 1, 1, 1}));
     Renderer({.threads = 1, .instruction_set = set}).finish(frame);
@@ -391,9 +400,9 @@ std::string refusal(const MeshData& mesh, const DrawState& state) {
   return "accepted";
 }
 
-TEST(PointsAndLines, RefuseSizesThatAreNone) {
-  const float nan = std::numeric_limits<float>::quiet_NaN(),
-              infinity = std::numeric_limits<float>::infinity();
+TEST(PointsAndLines, InvalidSizesAreRefused) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
   for (const float size : {0.0f, -1.0f, nan, infinity}) {
     DrawState state;
     state.point_size = size;
@@ -404,7 +413,7 @@ TEST(PointsAndLines, RefuseSizesThatAreNone) {
   }
 }
 
-TEST(PointsAndLines, RefuseCornersThatAreLeftOver) {
+TEST(PointsAndLines, IncompletePrimitivesAreRefused) {
   EXPECT_THAT(refusal(mesh_of(Primitive::lines, {{}, {}, {}}), {}),
               AllOf(HasSubstr("3 vertices"), HasSubstr("lines need a multiple of 2")));
   EXPECT_THAT(refusal(mesh_of(Primitive::line_strip, {{}}), {}),
@@ -413,7 +422,7 @@ TEST(PointsAndLines, RefuseCornersThatAreLeftOver) {
   EXPECT_EQ(refusal(mesh_of(Primitive::points, {{}}), {}), "accepted");
 }
 
-TEST(PointsAndLines, ThatAreNotFiniteAreDropped) {
+TEST(PointsAndLines, NonFiniteOnesAreDropped) {
   Renderer renderer({.threads = 1});
   for (const Primitive primitive : {Primitive::points, Primitive::lines}) {
     MeshData mesh = mesh_of(primitive, {{1000, 1000}, {9000, 2000}, {1000, 5000}, {9000, 7000}});

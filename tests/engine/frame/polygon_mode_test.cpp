@@ -1,6 +1,6 @@
-// Polygons drawn as lines or points: against the lines and points that their boundaries are, with facing,
+// Polygons drawn as lines or points, compared with the lines and points of their boundary, with facing,
 // culling, colours and offset of the whole polygon. Software drivers are known to fail at culled faces and at
-// offsets of outlines; here each has a test.
+// offsets of outlines; both have a test here.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,16 +17,21 @@ using testing::HasSubstr;
 
 constexpr int kWidth = 96, kHeight = 80;
 
-// A convex polygon around a centre, counter-clockwise, in a plane that leans.
+// A convex polygon around a centre, counter-clockwise, in an inclined plane.
 MeshData ring(Random& random, std::uint32_t corners) {
   MeshData mesh;
-  mesh.primitive = corners == 3 ? Primitive::triangles : corners == 4 ? Primitive::quads : Primitive::polygon;
-  const float x = random.between(-0.5f, 0.5f), y = random.between(-0.5f, 0.5f),
-              size = random.between(0.3f, 1.1f), lean = random.between(-0.4f, 0.4f),
-              turn = random.between(0, 6);
+  mesh.primitive = Primitive::polygon;
+  if (corners == 3) mesh.primitive = Primitive::triangles;
+  if (corners == 4) mesh.primitive = Primitive::quads;
+  const float x = random.between(-0.5f, 0.5f);
+  const float y = random.between(-0.5f, 0.5f);
+  const float size = random.between(0.3f, 1.1f);
+  const float lean = random.between(-0.4f, 0.4f);
+  const float turn = random.between(0, 6);
   for (std::uint32_t i = 0; i < corners; ++i) {
-    const float angle = turn + 6.2831853f * static_cast<float>(i) / static_cast<float>(corners),
-                dx = size * std::cos(angle), dy = size * std::sin(angle);
+    const float angle = turn + 6.2831853f * static_cast<float>(i) / static_cast<float>(corners);
+    const float dx = size * std::cos(angle);
+    const float dy = size * std::sin(angle);
     for (const float c : {x + dx, y + dy, lean * dx - 0.2f * lean * dy}) mesh.positions.push_back(c);
     for (int c = 0; c < 4; ++c) mesh.colors.push_back(c == 3 ? 1 : random.between(0.1f, 1));
   }
@@ -43,7 +48,7 @@ MeshData as(Primitive primitive, MeshData mesh) {
   return mesh;
 }
 
-// All of them by the code of draws with operations: colours of others may be rounded differently.
+// All of them use the kernels with fragment operations: other kernels may round colours differently.
 DrawState plain() {
   DrawState state;
   state.lighting = false;
@@ -74,14 +79,14 @@ std::ptrdiff_t lit(const std::vector<std::uint32_t>& words) {
   return std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return w != 0; });
 }
 
-TEST(PolygonMode, DrawsTheBoundaryAndNoDiagonal) {
+TEST(PolygonMode, DrawsTheBoundaryWithoutDiagonals) {
   Random random(61);
   for (int turn = 0; turn < 60; ++turn) {
     const MeshData mesh = ring(random, 3 + static_cast<std::uint32_t>(turn) % 5);
     for (const int samples : {1, 4}) {
       const std::vector<std::uint32_t> lines =
-                                           drawn({{as(Primitive::line_loop, mesh), plain()}}, 64, samples),
-                                       points = drawn({{as(Primitive::points, mesh), plain()}}, 64, samples);
+          drawn({{as(Primitive::line_loop, mesh), plain()}}, 64, samples);
+      const std::vector<std::uint32_t> points = drawn({{as(Primitive::points, mesh), plain()}}, 64, samples);
       ASSERT_GT(lit(lines), 20);
       ASSERT_EQ(drawn({{mesh, outlined(PolygonMode::line, PolygonMode::fill)}}, 32, samples), lines) << turn;
       ASSERT_EQ(drawn({{mesh, outlined(PolygonMode::point, PolygonMode::line)}}, 64, samples), points)
@@ -92,10 +97,11 @@ TEST(PolygonMode, DrawsTheBoundaryAndNoDiagonal) {
   }
 }
 
-TEST(PolygonMode, BelongsToTheFaceThatIsSeen) {
+TEST(PolygonMode, DependsOnTheVisibleFace) {
   Random random(62);
   for (int turn = 0; turn < 30; ++turn) {
-    const MeshData front = ring(random, 3 + static_cast<std::uint32_t>(turn) % 5), back = turned(front);
+    const MeshData front = ring(random, 3 + static_cast<std::uint32_t>(turn) % 5);
+    const MeshData back = turned(front);
     const PolygonMode modes[] = {PolygonMode::fill, PolygonMode::line, PolygonMode::point};
     for (const PolygonMode one : modes)
       for (const PolygonMode other : modes) {
@@ -107,11 +113,12 @@ TEST(PolygonMode, BelongsToTheFaceThatIsSeen) {
   }
 }
 
-// What Mesa's software driver is known to get wrong.
-TEST(PolygonMode, CullsFacesWhateverTheyAreDrawnAs) {
+// A known bug of Mesa's software driver.
+TEST(PolygonMode, CullsFacesInEveryMode) {
   Random random(63);
   for (int turn = 0; turn < 30; ++turn) {
-    const MeshData front = ring(random, 3 + static_cast<std::uint32_t>(turn) % 5), back = turned(front);
+    const MeshData front = ring(random, 3 + static_cast<std::uint32_t>(turn) % 5);
+    const MeshData back = turned(front);
     for (const PolygonMode mode : {PolygonMode::fill, PolygonMode::line, PolygonMode::point}) {
       DrawState culled = outlined(mode, mode);
       culled.cull = Cull::back;
@@ -124,14 +131,15 @@ TEST(PolygonMode, CullsFacesWhateverTheyAreDrawnAs) {
   }
 }
 
-// Outlines on their own polygon: moved nearer they all show, moved away none does that lies inside of it.
-// Mesa's software driver is known to get it wrong.
-TEST(PolygonMode, OffsetIsThatOfThePolygon) {
+// Outlines over their own polygon: all visible if moved nearer; if moved away, none inside the polygon is
+// visible. A known bug of Mesa's software driver.
+TEST(PolygonMode, UsesThePolygonsOffset) {
   Random random(64);
   for (const DepthFormat depth :
        {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
     for (int turn = 0; turn < 40; ++turn) {
-      MeshData mesh = ring(random, 3 + static_cast<std::uint32_t>(turn) % 5), black = mesh;
+      MeshData mesh = ring(random, 3 + static_cast<std::uint32_t>(turn) % 5);
+      MeshData black = mesh;
       for (std::size_t c = 0; c < black.colors.size(); ++c) black.colors[c] = c % 4 == 3 ? 1.0f : 0.0f;
       const auto shown = [&](float factor, float units) {
         FrameBuffer buffer({.width = kWidth, .height = kHeight, .depth = depth});
@@ -146,7 +154,7 @@ TEST(PolygonMode, OffsetIsThatOfThePolygon) {
       };
       const std::vector<std::uint32_t> alone = shown(0, 0);
       ASSERT_EQ(shown(-2, -2), alone) << turn;
-      // Outside of the filled polygon nothing hides them; so compare with what is filled.
+      // Outside the filled polygon nothing hides the lines, so only filled pixels are compared.
       std::vector<std::uint32_t> hidden = shown(2, 2);
       MeshData white = mesh;
       white.colors.assign(white.colors.size(), 1.0f);
@@ -161,7 +169,7 @@ TEST(PolygonMode, OffsetIsThatOfThePolygon) {
     }
 }
 
-TEST(PolygonMode, FlatOutlinesHaveTheColorOfTheirPolygon) {
+TEST(PolygonMode, FlatOutlinesUseThePolygonsColor) {
   Random random(65);
   for (int turn = 0; turn < 20; ++turn) {
     const std::uint32_t corners = 3 + static_cast<std::uint32_t>(turn) % 5;
@@ -181,8 +189,8 @@ TEST(PolygonMode, FlatOutlinesHaveTheColorOfTheirPolygon) {
   }
 }
 
-// By exactly the polygon's slope: a plane that rises along x, and the depth of its lines.
-TEST(PolygonMode, OffsetIsASlopeAndUnits) {
+// Moved by exactly the polygon's slope: a plane that rises along x, and the depth of its lines.
+TEST(PolygonMode, OffsetIsSlopeTimesFactorPlusUnits) {
   MeshData mesh;
   mesh.primitive = Primitive::quads;
   mesh.positions = {-0.75f, -0.5f, -0.375f, 0.75f, -0.5f, 0.375f, 0.75f, 0.5f, 0.375f, -0.75f, 0.5f, -0.375f};
@@ -209,22 +217,22 @@ TEST(PolygonMode, OffsetIsASlopeAndUnits) {
   }
 }
 
-// A clipped polygon's boundary closes along the plane that cut it.
-TEST(PolygonMode, ClosesTheBoundaryWhereClippingCutIt) {
+// The boundary of a clipped polygon closes along the clip plane.
+TEST(PolygonMode, ClosesTheBoundaryAlongTheClipPlane) {
   MeshData mesh;
   mesh.primitive = Primitive::quads;
   mesh.positions = {-0.75f, -0.5f, -1.5f, 0.75f,  -0.5f, 0.5f,
-                    0.75f,  0.5f,  0.5f,  -0.75f, 0.5f,  -1.5f};  // x = -0.375 at the near plane
+                    0.75f,  0.5f,  0.5f,  -0.75f, 0.5f,  -1.5f};  // x is -0.375 at the near plane
   mesh.colors.assign(16, 1.0f);
   const std::vector<std::uint32_t> words = drawn({{mesh, outlined(PolygonMode::line, PolygonMode::line)}});
-  constexpr std::size_t column = 29;  // the edge lies between 29 and 30, and belongs to the left one
+  constexpr std::size_t column = 29;  // the edge lies between 29 and 30 and belongs to the left pixel
   int count = 0;
   for (std::size_t y = 0; y < kHeight; ++y) count += words[y * kWidth + column] != 0;
   EXPECT_GE(count, kHeight / 2 - 1);
   FrameBuffer buffer({.width = kWidth, .height = kHeight});
   Frame frame(buffer);
   frame.draw(mesh.view(), outlined(PolygonMode::line, PolygonMode::line));
-  EXPECT_EQ(Renderer({.threads = 1}).finish(frame).clipped, 2u) << "a quad's two triangles";
+  EXPECT_EQ(Renderer({.threads = 1}).finish(frame).clipped, 2u) << "both triangles of the quad";
 }
 
 TEST(PolygonMode, CapturesThePolygonAndItsDraw) {
@@ -236,23 +244,25 @@ TEST(PolygonMode, CapturesThePolygonAndItsDraw) {
   second.colors.insert(second.colors.end(), other.colors.begin(), other.colors.end());
   FrameBuffer buffer({.width = kWidth, .height = kHeight});
   Frame frame(buffer);
-  std::vector<std::uint32_t> draw_ids(std::size_t{kWidth} * kHeight), primitive_ids(draw_ids.size());
+  std::vector<std::uint32_t> draw_ids(std::size_t{kWidth} * kHeight);
+  std::vector<std::uint32_t> primitive_ids(draw_ids.size());
   frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids});
   frame.draw(first.view(), outlined(PolygonMode::line, PolygonMode::fill));
   frame.clear({.depth = 1});
   frame.draw(second.view(), outlined(PolygonMode::point, PolygonMode::line));
   Renderer({.threads = 1}).finish(frame);
-  const std::vector<std::uint32_t> lines = drawn({{as(Primitive::line_loop, first), plain()}}),
-                                   points = drawn({{as(Primitive::points, second), plain()}}),
-                                   late = drawn({{as(Primitive::points, other), plain()}});
-  std::ptrdiff_t of_other = 0;
+  const std::vector<std::uint32_t> lines = drawn({{as(Primitive::line_loop, first), plain()}});
+  const std::vector<std::uint32_t> points = drawn({{as(Primitive::points, second), plain()}});
+  const std::vector<std::uint32_t> late = drawn({{as(Primitive::points, other), plain()}});
+  std::ptrdiff_t late_pixels = 0;
   for (std::size_t i = 0; i < draw_ids.size(); ++i) {
-    ASSERT_EQ(draw_ids[i], points[i] != 0 ? 1u : lines[i] != 0 ? 0u : Capture::kNothing);
+    const std::uint32_t below = lines[i] != 0 ? 0u : Capture::kNothing;
+    ASSERT_EQ(draw_ids[i], points[i] != 0 ? 1u : below);
     ASSERT_TRUE(primitive_ids[i] == (draw_ids[i] == Capture::kNothing ? Capture::kNothing : 0u) ||
                 (primitive_ids[i] == 1 && late[i] != 0));
-    of_other += primitive_ids[i] == 1;
+    late_pixels += primitive_ids[i] == 1;
   }
-  EXPECT_GT(of_other, 9);
+  EXPECT_GT(late_pixels, 9);
 }
 
 }  // namespace

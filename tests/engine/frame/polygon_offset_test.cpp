@@ -1,7 +1,6 @@
-// What polygon offset is for: decals. The same triangles again pass where they are one unit nearer, other
-// polygons on the same plane where they are a slope and a unit nearer; without offset they fight. And the
-// depths that all of this rests on: cleared and screen-parallel ones are exact in every format, at 32 bits
-// too.
+// Polygon offset for decals. The same triangles pass again if they are one unit nearer, other polygons in the
+// same plane if they are one slope and one unit nearer; without an offset they z-fight. Also the exactness
+// that this relies on: cleared and screen-parallel depths are exact in every format, including 32 bits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,8 +30,11 @@ constexpr Setting kSettings[] = {{"Unorm16", DepthFormat::unorm16},
                                  {"Unorm24FourSamples", DepthFormat::unorm24, false, 4}};
 const auto kNameOfSetting = [](const auto& setting) { return std::string(setting.param.name); };
 
-constexpr int kWidth = 96, kHeight = 64, kCases = 240;
-const Color kRed{1, 0, 0, 1}, kGreen{0, 1, 0, 1};
+constexpr int kWidth = 96;
+constexpr int kHeight = 64;
+constexpr int kCases = 240;
+const Color kRed{1, 0, 0, 1};
+const Color kGreen{0, 1, 0, 1};
 constexpr std::uint32_t kGreenWord = 0x00ff00;
 
 class Decals : public testing::TestWithParam<Setting> {
@@ -67,7 +69,7 @@ class Decals : public testing::TestWithParam<Setting> {
   }
 };
 
-// Some look straight at the plane, some almost, some along it.
+// Views of the plane: head-on, nearly head-on, and at grazing angles.
 Matrix random_transform(Random& random, int turn) {
   const double tilt = turn % 10 == 0  ? 0
                       : turn % 3 == 0 ? std::pow(10.0, random.between(-6, 0)) * 60
@@ -78,7 +80,7 @@ Matrix random_transform(Random& random, int turn) {
          rotate(random.between(0, 360), 0, 0, 1);
 }
 
-// A sheet of 4 x 4 crooked quads.
+// A sheet of 4 x 4 irregular quads.
 MeshData random_sheet(Random& random) {
   MeshData mesh;
   constexpr std::uint32_t kSide = 5;
@@ -96,9 +98,9 @@ MeshData random_sheet(Random& random) {
   return mesh;
 }
 
-TEST_P(Decals, OfTheSameTrianglesPassEverywhereOneUnitNearer) {
+TEST_P(Decals, SameTrianglesPassOneUnitNearer) {
   Random random(51);
-  std::size_t seen = 0;
+  std::size_t visible = 0;
   for (int turn = 0; turn < kCases; ++turn) {
     const MeshData sheet = random_sheet(random);
     const Matrix transform = random_transform(random, turn);
@@ -106,19 +108,19 @@ TEST_P(Decals, OfTheSameTrianglesPassEverywhereOneUnitNearer) {
     draw(sheet, kRed, transform);
     draw(sheet, kGreen, transform, {0, nearer});
     for (const std::uint32_t word : words_of_frame()) {
-      ASSERT_EQ(word >> 16, 0u) << "case " << turn << " shows what lies below";
-      seen += word != 0;
+      ASSERT_EQ(word >> 16, 0u) << "case " << turn << " shows the surface below";
+      visible += word != 0;
     }
-    // Without the offset nothing is nearer: the same triangle has the same depths again.
+    // Without an offset the same triangle has the same depths again and fails the test.
     begin();
     draw(sheet, kRed, transform);
     draw(sheet, kGreen, transform);
     for (const std::uint32_t word : words_of_frame()) ASSERT_EQ(word & 0x00ff00u, 0u) << "case " << turn;
   }
-  EXPECT_GT(seen, std::size_t{100} * kCases);
+  EXPECT_GT(visible, std::size_t{100} * kCases);
 }
 
-// A triangle in the plane z = 0 that is no sliver, within the square of the base.
+// A triangle in the plane z = 0, not a sliver, within the square of the base.
 MeshData random_decal(Random& random) {
   for (;;) {
     float p[6];
@@ -128,7 +130,8 @@ MeshData random_decal(Random& random) {
   }
 }
 
-// max(|dz/dx|, |dz/dy|) of the mesh's plane in the window, in multiples of the format's smallest difference.
+// max(|dz/dx|, |dz/dy|) of the mesh's plane in the window, in units of the format's smallest depth
+// difference.
 double slope_in_units(const Setting& setting, const Camera& camera, const Matrix& transform,
                       const MeshData& mesh) {
   const Matrix clip_from_object = camera.projection * camera.view * transform;
@@ -161,10 +164,10 @@ double slope_in_units(const Setting& setting, const Camera& camera, const Matrix
   }
 }
 
-TEST_P(Decals, OnTheSamePlaneNeverFightASlopeAndTheirRoundingNearer) {
+TEST_P(Decals, CoplanarPolygonsPassOneSlopeAndTheirRoundingNearer) {
   Random random(52);
   const MeshData base = rectangle(-1.5f, -1.5f, 1.5f, 1.5f);
-  std::size_t seen = 0;
+  std::size_t visible = 0;
   int fights = 0;
   for (int turn = 0; turn < kCases; ++turn) {
     const MeshData decal = random_decal(random);
@@ -182,24 +185,24 @@ TEST_P(Decals, OnTheSamePlaneNeverFightASlopeAndTheirRoundingNearer) {
         count += alone[i] == kGreenWord && words[i] != kGreenWord;
       return count;
     };
-    // Floats between vertices are rounded, in the plane of either by up to two units: each starts from a
-    // vertex of its own.
+    // float32 depths of either plane are rounded by up to two units, because each plane starts from a
+    // different vertex.
     const double slope = slope_in_units(setting, camera(), transform, base);
     const float units = setting.depth == DepthFormat::float32 ? 5.0f : 1.0f;
     ASSERT_EQ(hidden({nearer, nearer * units}), 0)
         << "case " << turn << ", a slope of " << slope << " units a pixel";
     fights += hidden({}) > 0;
-    seen += static_cast<std::size_t>(std::count(alone.begin(), alone.end(), kGreenWord));
+    visible += static_cast<std::size_t>(std::count(alone.begin(), alone.end(), kGreenWord));
   }
-  EXPECT_GT(seen, std::size_t{50} * kCases);
-  EXPECT_GT(fights, kCases * 3 / 4) << "nothing to be prevented";
+  EXPECT_GT(visible, std::size_t{50} * kCases);
+  EXPECT_GT(fights, kCases * 3 / 4) << "without an offset too few cases z-fight to prove anything";
 }
 
 INSTANTIATE_TEST_SUITE_P(Depths, Decals, testing::ValuesIn(kSettings), kNameOfSetting);
 
-// Whether a level is floor(d (2^bits - 1) + 0.5), in integers: d is a whole number of 2^-shift. Within a
-// millionth of a level around the middle between two, doubles round either way (0.3 is one of them at 16 and
-// at 32 bits), so both are right there.
+// True if `level` is floor(d (2^bits - 1) + 0.5), in integers: d is a multiple of 2^-shift. Within a
+// millionth of a level around the middle between two levels, doubles round either way (0.3 is such a value at
+// 16 and at 32 bits), so both are accepted there.
 bool is_level_of(std::uint32_t level, double d, int bits) {
   __extension__ using Wide = __int128;
   int exponent = 0;
@@ -207,13 +210,15 @@ bool is_level_of(std::uint32_t level, double d, int bits) {
   const int shift = 53 - exponent;  // at least 52
   if (shift > 90) return level == 0;
   const Wide exact = static_cast<Wide>(std::ldexp(mantissa, 53)) * ((Wide{1} << bits) - 1);
-  const Wide distance = exact - (Wide{level} << shift), half = Wide{1} << (shift - 1),
-             doubt = Wide{1} << (shift - 20);
+  const Wide distance = exact - (Wide{level} << shift);
+  const Wide half = Wide{1} << (shift - 1);
+  const Wide doubt = Wide{1} << (shift - 20);
   return distance >= -half - doubt && distance < half + doubt;
 }
 bool is_word_of(std::uint32_t word, double d, DepthFormat depth) {
   if (depth == DepthFormat::float32) return word == std::bit_cast<std::uint32_t>(static_cast<float>(d));
-  return is_level_of(word, d, depth == DepthFormat::unorm16 ? 16 : depth == DepthFormat::unorm24 ? 24 : 32);
+  if (depth == DepthFormat::unorm16) return is_level_of(word, d, 16);
+  return is_level_of(word, d, depth == DepthFormat::unorm24 ? 24 : 32);
 }
 
 std::vector<double> awkward_depths() {
@@ -222,7 +227,7 @@ std::vector<double> awkward_depths() {
                              1 - 0x1p-24, 1 - 0x1p-25, 1 - 0x1p-30, 1 - 0x1p-31, 1 - 0x1p-32, 1 - 0x1p-33,
                              1 - 0x1p-34, 1 - 0x1p-53, 0x1p-16,     0x1p-24,     0x1p-31,     0x1p-32,
                              0x1p-33,     0x1.8p-32,   0x1p-60};
-  // On both sides of the middle between two levels.
+  // Values around the middle between two levels.
   for (const double level : {0.0, 1.0, 16777216.0, 2147483647.0, 4294967000.0, 4294967293.0}) {
     const double middle = (level + 0.5) / 4294967295.0;
     depths.insert(depths.end(), {middle - 0x1p-50, middle, middle + 0x1p-50});
@@ -233,11 +238,11 @@ std::vector<double> awkward_depths() {
   return depths;
 }
 
-// Mesa's own software driver, llvmpipe, is known to fail this at 32 bits: its clears of a 32-bit depth buffer
+// llvmpipe, Mesa's software driver, is known to fail this at 32 bits: its clears of a 32-bit depth buffer
 // lose precision.
 class ExactDepth : public testing::TestWithParam<Setting> {};
 
-TEST_P(ExactDepth, IsWhatClearsStoreAndScreenParallelDrawsMeetAgain) {
+TEST_P(ExactDepth, IsEqualInClearsAndScreenParallelDraws) {
   const Setting setting = GetParam();
   Renderer renderer({.threads = 1});
   FrameBuffer buffer({.width = 40, .height = 36, .depth = setting.depth, .samples = setting.samples});
@@ -253,7 +258,7 @@ TEST_P(ExactDepth, IsWhatClearsStoreAndScreenParallelDrawsMeetAgain) {
     const std::uint32_t word = stored_depths(buffer).front();
     ASSERT_TRUE(is_word_of(word, depth, setting.depth)) << word << " is cleared";
     ASSERT_TRUE(all_are(stored_depths(buffer), word));
-    // The same depth by way of the depth range, and by way of the transform where that is exact.
+    // The same depth through the depth range, and through the transform if that is exact.
     for (const bool by_range : {true, false}) {
       if (!by_range && depth < 0.5) continue;
       DrawState state = unlit({1, 1, 1, 1});
@@ -269,8 +274,8 @@ TEST_P(ExactDepth, IsWhatClearsStoreAndScreenParallelDrawsMeetAgain) {
   }
 }
 
-// A part of the window has another way from the clear to the planes than the whole.
-TEST_P(ExactDepth, IsWhatClearsOfPartsStore) {
+// Partial clears reach the planes by another path than full clears.
+TEST_P(ExactDepth, IsEqualInPartialClears) {
   const Setting setting = GetParam();
   Renderer renderer({.threads = 1});
   FrameBuffer buffer({.width = 40, .height = 36, .depth = setting.depth, .samples = setting.samples});
@@ -288,8 +293,8 @@ TEST_P(ExactDepth, IsWhatClearsOfPartsStore) {
 
 INSTANTIATE_TEST_SUITE_P(Depths, ExactDepth, testing::ValuesIn(kSettings), kNameOfSetting);
 
-// In unorm formats a unit is a level, at every pixel: the offset moves the depths that the triangle has
-// anyway.
+// In unorm formats a unit is one level at every pixel: the offset shifts the triangle's depths by whole
+// levels.
 TEST(PolygonOffset, MovesUnormDepthsByWholeLevels) {
   Random random(77);
   Renderer renderer({.threads = 1});
@@ -298,7 +303,7 @@ TEST(PolygonOffset, MovesUnormDepthsByWholeLevels) {
     for (int round = 0; round < 300; ++round) {
       MeshData mesh;
       if (round == 0) {
-        // All on pixel centres; depths whose steps have no end in binary.
+        // All vertices on pixel centres; depth steps are not exact in binary.
         mesh.positions = {-0.671875f, -0.671875f, 0,          -0.359375f, -0.671875f,
                           2.3846e-7f, -0.671875f, -0.359375f, 0};
       } else {
@@ -317,7 +322,9 @@ TEST(PolygonOffset, MovesUnormDepthsByWholeLevels) {
         renderer.finish(frame);
         return stored_depths(buffer);
       };
-      const std::vector<std::uint32_t> plain = depths(0), nearer = depths(-1), farther = depths(3);
+      const std::vector<std::uint32_t> plain = depths(0);
+      const std::vector<std::uint32_t> nearer = depths(-1);
+      const std::vector<std::uint32_t> farther = depths(3);
       const std::uint32_t far_end = format == DepthFormat::unorm16   ? 0xffffu
                                     : format == DepthFormat::unorm24 ? 0xffffffu
                                                                      : 0xffffffffu;
@@ -332,9 +339,9 @@ TEST(PolygonOffset, MovesUnormDepthsByWholeLevels) {
   }
 }
 
-// Clipping cuts it into pieces with largest depths of 0.3 and 0.9, whose units are not the same. Its
-// neighbour is cut by nothing.
-TEST(PolygonOffset, IsTheSameForAllThatClippingLeavesOfATriangle) {
+// Clipping cuts the triangle into parts with maximum depths of 0.3 and 0.9, whose units differ. Its neighbour
+// is not clipped.
+TEST(PolygonOffset, IsTheSameForAllPartsOfAClippedTriangle) {
   MeshData mesh;
   mesh.positions = {-0.9f, -0.9f, -3,    0.9f,  -0.9f, 0.8f,  0,    0.9f, -0.4f,
                     0.95f, 0.9f,  -0.5f, 0.95f, 0,     -0.6f, 0.5f, 0.9f, -0.7f};
@@ -353,30 +360,33 @@ TEST(PolygonOffset, IsTheSameForAllThatClippingLeavesOfATriangle) {
       buffer.read_depth(depth);
       return depth;
     };
-    const std::vector<float> plain = depths(false), moved = depths(true), neighbor = depths(true, true);
-    float least = 1, most = 0;
-    int count = 0, of_neighbor = 0;
+    const std::vector<float> plain = depths(false);
+    const std::vector<float> moved = depths(true);
+    const std::vector<float> neighbor = depths(true, true);
+    float min_shift = 1, max_shift = 0;
+    int count = 0;
+    int neighbor_count = 0;
     for (std::size_t i = 0; i < plain.size(); ++i) {
       if (neighbor[i] != 1) {
-        ++of_neighbor;
-        ASSERT_EQ(moved[i], neighbor[i]) << "whatever else is drawn";
+        ++neighbor_count;
+        ASSERT_EQ(moved[i], neighbor[i]) << "other draws have no effect";
       } else if (plain[i] != 1) {
         ++count;
-        least = std::min(least, moved[i] - plain[i]);
-        most = std::max(most, moved[i] - plain[i]);
+        min_shift = std::min(min_shift, moved[i] - plain[i]);
+        max_shift = std::max(max_shift, moved[i] - plain[i]);
       }
     }
     EXPECT_GT(count, 500);
-    EXPECT_GT(of_neighbor, 50);
-    EXPECT_LT(most - least, 1e-6f) << factor;
+    EXPECT_GT(neighbor_count, 50);
+    EXPECT_LT(max_shift - min_shift, 1e-6f) << factor;
     if (factor == 0) {
-      EXPECT_NEAR(least, 0x1p-4f, 1e-6f);  // 2^20 units of 2^-24: its largest depth is 0.9
+      EXPECT_NEAR(min_shift, 0x1p-4f, 1e-6f);  // 2^20 units of 2^-24: the maximum depth is 0.9
     }
   }
 }
 
-// However far it is pushed, a depth ends at 0 or 1, and not beyond them at the other end.
-TEST(PolygonOffset, EndsAtTheEndsOfTheRange) {
+// Depth saturates at 0 or 1 however large the offset is; it does not wrap around.
+TEST(PolygonOffset, SaturatesAtTheDepthRange) {
   for (const DepthFormat format :
        {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
     for (const float units : {-5e9f, -1e18f, 5e9f, 1e18f}) {

@@ -1,5 +1,4 @@
-// Strips, fans, quads and polygons against the triangles that they stand for, which are written down here by
-// hand.
+// Strips, fans, quads and polygons, compared with a hand-written list of their triangles.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +19,9 @@ using testing::HasSubstr;
 
 struct Split {
   std::uint32_t corners[3];
-  std::uint32_t last, first;  // the provoking vertex of its polygon, under either convention
+  // Provoking vertex of the polygon, under either convention.
+  std::uint32_t last;
+  std::uint32_t first;
 };
 struct PrimitiveCase {
   const char* name;
@@ -59,7 +60,7 @@ const std::vector<PrimitiveCase>& cases() {
 
 constexpr int kWidth = 96, kHeight = 80;
 
-// Positions anywhere, planar or not; a normal and a colour each.
+// Positions anywhere, planar or not; each vertex has a normal and a colour.
 MeshData random_mesh(const PrimitiveCase& of, std::uint64_t seed) {
   Random random(seed);
   MeshData mesh;
@@ -83,7 +84,7 @@ void append(MeshData& to, const MeshData& from, std::uint32_t position, std::uin
   copy(to.colors, from.colors, rest, 4);
 }
 
-// Triangles without shared vertices; flat ones have what their provoking vertex has at all corners.
+// Triangles without shared vertices; at flat shading all corners have the attributes of the provoking vertex.
 MeshData as_triangles(const PrimitiveCase& of, const MeshData& mesh, const DrawState& state) {
   MeshData out;
   for (const Split& t : of.triangles)
@@ -107,12 +108,13 @@ Image drawn(const Mesh& mesh, const DrawState& state,
   return image;
 }
 int largest_difference(const Image& a, const Image& b) {
-  int most = 0;
-  for (std::size_t i = 0; i < a.bytes.size(); ++i) most = std::max(most, std::abs(a.bytes[i] - b.bytes[i]));
-  return most;
+  int largest = 0;
+  for (std::size_t i = 0; i < a.bytes.size(); ++i)
+    largest = std::max(largest, std::abs(a.bytes[i] - b.bytes[i]));
+  return largest;
 }
 
-TEST(PolygonPrimitives, LookLikeTheTrianglesTheyStandFor) {
+TEST(PolygonPrimitives, MatchTheirTriangles) {
   for (const PrimitiveCase& of : cases())
     for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
       for (const ProvokingVertex provoking : {ProvokingVertex::last, ProvokingVertex::first})
@@ -127,8 +129,9 @@ TEST(PolygonPrimitives, LookLikeTheTrianglesTheyStandFor) {
               state.material.shininess = 10;
               if (with_operations) state.alpha_test = AlphaTest{.func = Compare::greater, .ref = 0.3f};
               if (with_operations && lighting) state.color_material = ColorMaterial::diffuse;
-              const MeshData mesh = random_mesh(of, seed), triangles = as_triangles(of, mesh, state);
-              // Interpolated colours may round differently where a triangle's vertices are taken in another
+              const MeshData mesh = random_mesh(of, seed);
+              const MeshData triangles = as_triangles(of, mesh, state);
+              // Interpolated colours may round differently if the vertices of a triangle are in another
               // order.
               EXPECT_LE(largest_difference(drawn(mesh.view(), state), drawn(triangles.view(), state)),
                         shading == Shading::flat ? 0 : 1)
@@ -138,14 +141,14 @@ TEST(PolygonPrimitives, LookLikeTheTrianglesTheyStandFor) {
             }
 }
 
-TEST(PolygonPrimitives, TakeIndicesOfEverySize) {
+TEST(PolygonPrimitives, AcceptIndicesOfEverySize) {
   for (const PrimitiveCase& of : cases()) {
     MeshData mesh = random_mesh(of, 9);
     DrawState state;
     state.shading = Shading::flat;
     state.lighting = false;
     const Image expected = drawn(mesh.view(), state);
-    // The same vertices in another order, brought back by indices.
+    // The same vertices in another order, restored by indices.
     MeshData turned;
     turned.primitive = of.primitive;
     std::vector<std::uint16_t> narrow;
@@ -161,8 +164,7 @@ TEST(PolygonPrimitives, TakeIndicesOfEverySize) {
   }
 }
 
-// A bow tie whose left lobe, twice as large, is counter-clockwise and whose right one is not; split along
-// 0-2.
+// A bow tie, split along 0-2: the left lobe, twice as large, is counter-clockwise, the right one clockwise.
 MeshData bow_tie(Primitive primitive) {
   MeshData mesh;
   mesh.primitive = primitive;
@@ -182,7 +184,7 @@ std::size_t pixels_of(const MeshData& mesh, Cull cull, FrontFace front) {
   return count;
 }
 
-TEST(PolygonPrimitives, HaveOneSideForAllTheirTriangles) {
+TEST(PolygonPrimitives, HaveOneFacingForAllTriangles) {
   for (const Primitive primitive : {Primitive::quads, Primitive::quad_strip, Primitive::polygon}) {
     const MeshData tie = bow_tie(primitive);
     const std::size_t all = pixels_of(tie, Cull::none, FrontFace::ccw);
@@ -196,8 +198,8 @@ TEST(PolygonPrimitives, HaveOneSideForAllTheirTriangles) {
   }
 }
 
-TEST(PolygonPrimitives, HaveTheMaterialOfTheirSide) {
-  // Triangles 0 1 2 and 0 2 3 of the bow tie are turned against each other; the whole is a front.
+TEST(PolygonPrimitives, UseTheMaterialOfTheirFacing) {
+  // Triangles 0 1 2 and 0 2 3 of the bow tie have opposite windings; the whole is a front face.
   for (const bool with_operations : {false, true}) {
     const MeshData tie = bow_tie(Primitive::quads);
     FrameBuffer buffer({.width = kWidth, .height = kHeight});
@@ -212,7 +214,8 @@ TEST(PolygonPrimitives, HaveTheMaterialOfTheirSide) {
       state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_dst_alpha};
     frame.draw(tie.view(), state);
     Renderer({.threads = 1}).finish(frame);
-    std::size_t red = 0, blue = 0;
+    std::size_t red = 0;
+    std::size_t blue = 0;
     for (const std::uint32_t word : packed_colors(buffer)) {
       red += word == 0xff0000u;
       blue += word == 0x0000ffu;
@@ -222,8 +225,8 @@ TEST(PolygonPrimitives, HaveTheMaterialOfTheirSide) {
   }
 }
 
-// A quad of which the near plane leaves a part: its side is that of what is left.
-TEST(PolygonPrimitives, HaveOneSideWhereTheyAreClipped) {
+// A quad cut by the near plane: the facing is that of the remaining part.
+TEST(PolygonPrimitives, HaveOneFacingIfClipped) {
   Random random(77);
   int drawn_ones = 0;
   for (int turn = 0; turn < 200; ++turn) {
@@ -234,9 +237,9 @@ TEST(PolygonPrimitives, HaveOneSideWhereTheyAreClipped) {
       for (const float x :
            {random.between(-2, 2), random.between(-2, 2), random.between(-2, 2), random.between(-0.5f, 2)})
         quad.positions.push_back(x);
-    const std::size_t all = pixels_of(quad, Cull::none, FrontFace::ccw),
-                      front = pixels_of(quad, Cull::back, FrontFace::ccw),
-                      back = pixels_of(quad, Cull::front, FrontFace::ccw);
+    const std::size_t all = pixels_of(quad, Cull::none, FrontFace::ccw);
+    const std::size_t front = pixels_of(quad, Cull::back, FrontFace::ccw);
+    const std::size_t back = pixels_of(quad, Cull::front, FrontFace::ccw);
     EXPECT_TRUE((front == all && back == 0) || (front == 0 && back == all))
         << "turn " << turn << ": " << front << " and " << back << " of " << all;
     drawn_ones += all > 50;
@@ -244,8 +247,7 @@ TEST(PolygonPrimitives, HaveOneSideWhereTheyAreClipped) {
   EXPECT_GT(drawn_ones, 50);
 }
 
-// Not planar: each of its triangles would be moved by a slope of its own, and by a unit of its own largest
-// depth.
+// Not planar: separate triangles would have different slopes and different units.
 TEST(PolygonPrimitives, HaveOneOffset) {
   const auto depths = [](const std::vector<float>& positions, DepthFormat format, PolygonOffset offset) {
     MeshData quad;
@@ -263,7 +265,7 @@ TEST(PolygonPrimitives, HaveOneOffset) {
   const std::vector<float> folded{-0.8f, -0.8f, 0, 0.8f, -0.8f, 0.6f, 0.8f, 0.8f, 0, -0.8f, 0.8f, 0};
   const std::vector<std::uint32_t> before = depths(folded, DepthFormat::unorm24, {}),
                                    after = depths(folded, DepthFormat::unorm24, {20, 0});
-  // The first triangle rises by 0.3 of depth over 0.8 of the window's width.
+  // Depth rises by 0.3 over 0.8 of the window's width in the first triangle.
   const double moved = 20 * (0.3 / (0.8 * kHeight)) * 0xffffff;
   int count = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -275,8 +277,8 @@ TEST(PolygonPrimitives, HaveOneOffset) {
 
   const std::vector<float> tilted{-0.8f, -0.8f, -0.1f, 0.8f,  -0.8f, 0.2f,
                                   0.8f,  0.8f,  -0.1f, -0.8f, 0.8f,  -0.4f};  // depths 0.45, 0.6, 0.45, 0.3
-  const std::vector<std::uint32_t> plane = depths(tilted, DepthFormat::float32, {}),
-                                   unit = depths(tilted, DepthFormat::float32, {0, 1});
+  const std::vector<std::uint32_t> plane = depths(tilted, DepthFormat::float32, {});
+  const std::vector<std::uint32_t> unit = depths(tilted, DepthFormat::float32, {0, 1});
   for (std::size_t i = 0; i < plane.size(); ++i) {
     if (plane[i] == std::bit_cast<std::uint32_t>(1.0f)) continue;
     const float difference = std::bit_cast<float>(unit[i]) - std::bit_cast<float>(plane[i]);
@@ -284,8 +286,8 @@ TEST(PolygonPrimitives, HaveOneOffset) {
   }
 }
 
-TEST(PolygonPrimitives, HaveOneNormalWhereTheMeshHasNone) {
-  // Not planar: its triangles' own normals would differ. The sum of both is (0, 0.2, 1) turned a little.
+TEST(PolygonPrimitives, HaveOneGeneratedNormal) {
+  // Not planar: the triangles' normals differ. Their sum is (0, 0.2, 1), slightly rotated.
   MeshData quad;
   quad.primitive = Primitive::quads;
   quad.positions = {-0.8f, -0.8f, 0, 0.8f, -0.8f, 0.3f, 0.8f, 0.8f, 0, -0.8f, 0.8f, 0.3f};
@@ -305,7 +307,7 @@ TEST(PolygonPrimitives, HaveOneNormalWhereTheMeshHasNone) {
     ASSERT_EQ(word, seen) << "one colour for the whole quad";
   }
   EXPECT_NE(seen, 0u);
-  // Smooth: each vertex has the face once, so the normal is the same everywhere too.
+  // Smooth: each vertex belongs to the face once, so the normal is the same everywhere too.
   flat.shading = Shading::gouraud;
   FrameBuffer buffer({.width = kWidth, .height = kHeight});
   Frame frame(buffer);
@@ -314,7 +316,7 @@ TEST(PolygonPrimitives, HaveOneNormalWhereTheMeshHasNone) {
   for (const std::uint32_t word : packed_colors(buffer)) ASSERT_TRUE(word == 0 || word == seen);
 }
 
-TEST(PolygonPrimitives, AreDroppedWholeWhereAVertexIsNotFinite) {
+TEST(PolygonPrimitives, AreDroppedWholeIfAVertexIsNonFinite) {
   MeshData quads;
   quads.primitive = Primitive::quads;
   quads.positions = {-0.9f, -0.9f, 0, -0.1f, -0.9f, 0, -0.1f, 0.9f, 0, std::nanf(""), 0.9f, 0,
@@ -339,11 +341,11 @@ TEST(PolygonPrimitives, AreCountedByCaptures) {
     frame.capture({.primitive_ids = numbers});
     frame.draw(mesh.view(), unlit({1, 1, 1, 1}));
     Renderer({.threads = 1}).finish(frame);
-    const std::uint32_t each = of.primitive == Primitive::quads || of.primitive == Primitive::quad_strip ? 2
-                               : of.primitive == Primitive::polygon                                      ? 4
-                                                                                                         : 1;
-    const std::uint32_t count = static_cast<std::uint32_t>(of.triangles.size()) / each;
-    // The same triangles one by one.
+    std::uint32_t triangles_each = 1;
+    if (of.primitive == Primitive::quads || of.primitive == Primitive::quad_strip) triangles_each = 2;
+    if (of.primitive == Primitive::polygon) triangles_each = 4;
+    const std::uint32_t count = static_cast<std::uint32_t>(of.triangles.size()) / triangles_each;
+    // The same triangles, drawn separately.
     MeshData split = mesh;
     split.primitive = Primitive::triangles;
     for (const Split& t : of.triangles) split.indices.insert(split.indices.end(), t.corners, t.corners + 3);
@@ -355,7 +357,8 @@ TEST(PolygonPrimitives, AreCountedByCaptures) {
     Renderer({.threads = 1}).finish(other);
     std::set<std::uint32_t> seen;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      ASSERT_EQ(numbers[i], of_triangles[i] == Capture::kNothing ? Capture::kNothing : of_triangles[i] / each)
+      ASSERT_EQ(numbers[i],
+                of_triangles[i] == Capture::kNothing ? Capture::kNothing : of_triangles[i] / triangles_each)
           << of.name;
       seen.insert(numbers[i]);
     }
@@ -364,7 +367,7 @@ TEST(PolygonPrimitives, AreCountedByCaptures) {
   }
 }
 
-TEST(PolygonPrimitives, ErrorsTellHowManyVerticesThereAre) {
+TEST(PolygonPrimitives, ErrorsNameTheVertexCount) {
   const auto error = [](Primitive primitive, std::size_t vertices, bool indexed) {
     MeshData mesh;
     mesh.primitive = primitive;

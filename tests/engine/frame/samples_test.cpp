@@ -1,5 +1,5 @@
-// Coverage samples as callers see them: which of them a triangle covers, by a rule of its own in exact
-// integers, what is left of them after the frame, and what they cost a buffer that stores none.
+// Coverage samples through the public interface: coverage by an independent rule in exact integers, their
+// state after the frame, and the memory of buffers that store none.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +14,9 @@ namespace {
 
 using namespace test;
 
-constexpr int kWidth = 256,
-              kHeight = 128;  // powers of two: every 1/256 pixel is a float's window coordinate, exactly
+// Powers of two: every multiple of 1/256 pixel is exact in a float's window coordinate.
+constexpr int kWidth = 256;
+constexpr int kHeight = 128;
 constexpr int kScale = 256;
 
 FrameBufferFormat format_of(int samples) { return {.width = kWidth, .height = kHeight, .samples = samples}; }
@@ -37,27 +38,29 @@ MeshData mesh_of(const Triangle& triangle) {
   return mesh;
 }
 
-// The patterns of Direct3D 11, in 1/16 pixel from the centre, y down.
+// Sample positions of Direct3D 11, in 1/16 pixel from the centre, y down.
 const std::vector<Point>& pattern(int samples) {
-  static const std::vector<Point> kOne{{0, 0}}, kFour{{-2, -6}, {6, -2}, {-6, 2}, {2, 6}},
-      kEight{{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
-  return samples == 1 ? kOne : samples == 4 ? kFour : kEight;
+  static const std::vector<Point> kOne{{0, 0}};
+  static const std::vector<Point> kFour{{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
+  static const std::vector<Point> kEight{{1, -3}, {-1, 3},  {5, 1}, {-3, -5},
+                                         {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
+  if (samples == 1) return kOne;
+  return samples == 4 ? kFour : kEight;
 }
 Point sample_of(int x, int y, const Point& offset) {
   return {kScale * x + kScale / 2 + offset.x * (kScale / 16),
           kScale * y + kScale / 2 + offset.y * (kScale / 16)};
 }
 
-// Whether the triangle covers a point. A point on an edge belongs to it where the edge is a left or a top
-// one: the triangle lies to the right of it, or below.
+// True if the triangle covers the point. A point on an edge is covered if the edge is a left or top edge: the
+// triangle lies to its right or below.
 bool covers(Triangle t, const Point& p) {
   const auto side = [](const Point& a, const Point& b, const Point& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   };
   const std::int64_t area = side(t[0], t[1], t[2]);
   if (area == 0) return false;
-  if (area < 0)
-    std::swap(t[1], t[2]);  // clockwise as it is seen: edges go up on the left, to the right at the top
+  if (area < 0) std::swap(t[1], t[2]);  // clockwise in the window: left edges go up, top edges go right
   for (std::size_t k = 0; k < 3; ++k) {
     const Point &a = t[k], &b = t[(k + 1) % 3];
     const std::int64_t inside = side(a, b, p);
@@ -85,8 +88,8 @@ Point random_point(Random& random) {
   return {below(random, kWidth * kScale), below(random, kHeight * kScale)};
 }
 
-// Tiny and large ones, slivers, ones on sample positions, ones around the borders of tiles, ones that reach
-// far out of the window.
+// Tiny and large triangles, slivers, vertices on sample positions and tile borders, and triangles far larger
+// than the window.
 Triangle random_triangle(Random& random, int turn) {
   const Point center = random_point(random);
   Triangle t;
@@ -115,12 +118,12 @@ Triangle random_triangle(Random& random, int turn) {
   return t;
 }
 
-class Samples : public testing::TestWithParam<int> {
+class FrameSamples : public testing::TestWithParam<int> {
  protected:
   const int samples = GetParam();
 };
 
-TEST_P(Samples, AreCoveredAsAnExactRuleSays) {
+TEST_P(FrameSamples, AreCoveredByAnExactRule) {
   Renderer renderers[3] = {Renderer({.threads = 1, .tile_size = 32}),
                            Renderer({.threads = 1, .tile_size = 64}),
                            Renderer({.threads = 1, .tile_size = 128})};
@@ -161,12 +164,12 @@ TEST_P(Samples, AreCoveredAsAnExactRuleSays) {
   EXPECT_GE(in_part, samples > 1 ? 10000u : 0u);
 }
 
-// A sheet of triangles whose inner corners lie anywhere, each added to what is there: a sample that belonged
-// to two or to none would show.
-TEST_P(Samples, BelongToOneOfTheTrianglesThatShareAnEdge) {
+// A sheet with random inner vertices, drawn additively: samples covered twice or not at all become visible.
+TEST_P(FrameSamples, BelongToExactlyOneTriangleAtASharedEdge) {
   Renderer renderer({.threads = 1});
   Random random(32);
-  constexpr int kColumns = 13, kRows = 7;
+  constexpr int kColumns = 13;
+  constexpr int kRows = 7;
   for (int turn = 0; turn < 25; ++turn) {
     MeshData mesh;
     for (int row = 0; row <= kRows; ++row)
@@ -198,17 +201,17 @@ TEST_P(Samples, BelongToOneOfTheTrianglesThatShareAnEdge) {
   }
 }
 
-TEST_P(Samples, AreKeptToTheEndOfTheFrame) {
+TEST_P(FrameSamples, AreKeptUntilTheEndOfTheFrame) {
   Renderer renderer({.threads = 1});
   Random random(33);
-  // Two triangles that share the long edge: in one frame they are white all over, in two the edge has gone
-  // grey in between.
+  // Two triangles that share the long edge: in one frame the picture is white, in two frames the edge has
+  // become grey at the first resolve.
   for (const bool in_one_frame : {true, false}) {
     for (int turn = 0; turn < 10; ++turn) {
       const Point a{below(random, 20 * kScale), below(random, kHeight * kScale)},
           b{kWidth * kScale - below(random, 20 * kScale), below(random, kHeight * kScale)};
-      const Triangle upper{a, b, Point{kWidth * kScale / 2, -200 * kScale}},
-          lower{a, b, Point{kWidth * kScale / 2, 300 * kScale}};
+      const Triangle upper{a, b, Point{kWidth * kScale / 2, -200 * kScale}};
+      const Triangle lower{a, b, Point{kWidth * kScale / 2, 300 * kScale}};
       const MeshData first = mesh_of(upper), second = mesh_of(lower);
       FrameBuffer buffer(format_of(samples));
       Frame frame(buffer);
@@ -234,7 +237,7 @@ TEST_P(Samples, AreKeptToTheEndOfTheFrame) {
   }
 }
 
-TEST_P(Samples, LeaveDepthAndStencilOfTheFirst) {
+TEST_P(FrameSamples, StoredDepthAndStencilAreThoseOfSample0) {
   Renderer renderer({.threads = 1});
   Random random(34);
   for (int turn = 0; turn < 10; ++turn) {
@@ -263,23 +266,25 @@ TEST_P(Samples, LeaveDepthAndStencilOfTheFirst) {
         ASSERT_EQ(stencil[i], covered ? 9 : 3) << x << ", " << y;
         const double level = covered ? std::floor(depth_at(first) * 0xffffff + 0.5) : 0xffffff;
         ASSERT_NEAR(levels[i], level, covered ? 2 : 0)
-            << x << ", " << y;  // a pixel to the right is 16384 levels
+            << x << ", " << y;  // one pixel to the right is 16384 levels
       }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Patterns, Samples, testing::Values(1, 4, 8),
+INSTANTIATE_TEST_SUITE_P(Patterns, FrameSamples, testing::Values(1, 4, 8),
                          [](const auto& count) { return "Of" + std::to_string(count.param); });
 
-TEST(SamplesInMemory, TakeNoneBetweenFrames) {
+TEST(FrameSamplesMemory, TakeNoMemoryBetweenFrames) {
   constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation};
   Renderer renderer({.threads = 1});
   const MeshData triangle = mesh_of({Point{1000, 2000}, {40000, 5000}, {3000, 30000}});
   for (const int samples : {4, 8}) {
-    FrameBufferFormat one = format_of(1), several = format_of(samples);
+    FrameBufferFormat one = format_of(1);
+    FrameBufferFormat several = format_of(samples);
     one.accumulation_bits = several.accumulation_bits = 16;
     EXPECT_EQ(FrameBuffer::memory_bytes(one), FrameBuffer::memory_bytes(several));
-    FrameBuffer plain(one), sampled(several);
+    FrameBuffer plain(one);
+    FrameBuffer sampled(several);
     for (const Buffer which : kBuffers) {
       EXPECT_EQ(sampled.allocated_bytes(which), 0u) << static_cast<int>(which);
       EXPECT_EQ(sampled.plane_count(which), plain.plane_count(which)) << static_cast<int>(which);

@@ -1,5 +1,4 @@
-// A stencil test decides about pixels, and about nothing else: what passes has the colour and depth that it
-// has without the test.
+// A stencil test only selects pixels: those that pass have the same colour and depth as without the test.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -12,16 +11,15 @@ namespace {
 
 using namespace test;
 
-// Large ones, and so small ones that many of them lie between two pixels, of either winding; each with
-// colours and a normal of its own.
+// Large triangles, and triangles so small that many lie between pixels, of either winding; each vertex has a
+// colour and a normal.
 MeshData some_triangles() {
   Random random(11);
   MeshData mesh;
   for (int i = 0; i < 1500; ++i) {
-    const float extent = i % 50 == 0  ? 1.5f
-                         : i % 3 == 0 ? 0.2f
-                                      : 0.04f,
-                center[3] = {random.between(-1, 1), random.between(-1, 1), random.between(-0.9f, 0.9f)};
+    float extent = i % 3 == 0 ? 0.2f : 0.04f;
+    if (i % 50 == 0) extent = 1.5f;
+    const float center[3] = {random.between(-1, 1), random.between(-1, 1), random.between(-0.9f, 0.9f)};
     for (int k = 0; k < 3; ++k) {
       for (const float c : center)
         mesh.positions.push_back(c + extent * random.between(-0.5f, 0.5f) * (&c == center + 2 ? 0.1f : 1.0f));
@@ -59,7 +57,7 @@ Stored drawn(const FrameBufferFormat& format, const MeshData& mesh, const DrawSt
   return stored;
 }
 
-TEST(StencilTestColors, AreThoseWithoutTheTest) {
+TEST(StencilTestColors, MatchThoseWithoutTheTest) {
   const MeshData mesh = some_triangles();
   std::vector<FrameBufferFormat> formats(5, {.width = 130, .height = 97});
   formats[1].color_bits = 16, formats[1].depth = DepthFormat::float32;
@@ -67,9 +65,10 @@ TEST(StencilTestColors, AreThoseWithoutTheTest) {
   formats[2].depth = DepthFormat::unorm32;
   formats[3].depth = DepthFormat::none;
   formats[4].samples = 4;
-  MeshData marks;  // every other stripe
+  MeshData marks;  // every second stripe
   for (int k = -20; k < 20; k += 2) {
-    const float y0 = static_cast<float>(k) / 20, y1 = static_cast<float>(k + 1) / 20;
+    const float y0 = static_cast<float>(k) / 20;
+    const float y1 = static_cast<float>(k + 1) / 20;
     for (const auto& [x, y] :
          {std::pair{-1.0f, y0}, {1.0f, y0}, {1.0f, y1}, {-1.0f, y0}, {1.0f, y1}, {-1.0f, y1}})
       marks.positions.insert(marks.positions.end(), {x, y, 0.0f});
@@ -85,7 +84,7 @@ TEST(StencilTestColors, AreThoseWithoutTheTest) {
           state.shading = shading;
           const RendererOptions options{.threads = 1, .tile_size = tile_size};
           const Stored plain = drawn(format, mesh, state, options);
-          // Counted up everywhere, by fronts and backs in two ways.
+          // Every fragment increments; fronts and backs use different operations.
           state.stencil =
               StencilState{.front = {.func = Compare::gequal,
                                      .ref = 255,
@@ -95,20 +94,20 @@ TEST(StencilTestColors, AreThoseWithoutTheTest) {
           const Stored counted = drawn(format, mesh, state, options);
           EXPECT_EQ(counted.words, plain.words);
           EXPECT_EQ(counted.depth, plain.depth);
-          // Fronts alone: what backs would have stored is not there.
+          // Fronts only: backs store nothing.
           state.stencil->back->func = Compare::never;
           DrawState front_faces = state;
           front_faces.stencil.reset();
           front_faces.cull = Cull::back;
           EXPECT_EQ(drawn(format, mesh, state, options).words,
                     drawn(format, mesh, front_faces, options).words);
-          if (format.samples > 1) continue;  // edges of stripes run through pixels
-          // Fronts in every other stripe.
+          if (format.samples > 1) continue;  // edges of the stripes cross pixels
+          // Fronts in every second stripe.
           state.stencil.reset();
           state.cull = Cull::back;
-          const Stored fronts = drawn(format, mesh, state, options),
-                       nothing = drawn(format, {}, state, options),
-                       stripes = drawn(format, marks, unlit({1, 1, 1, 1}), options);
+          const Stored fronts = drawn(format, mesh, state, options);
+          const Stored nothing = drawn(format, {}, state, options);
+          const Stored stripes = drawn(format, marks, unlit({1, 1, 1, 1}), options);
           state.stencil = StencilState{.front = {.func = Compare::equal, .ref = 1, .mask = 1}};
           const Stored marked = drawn(format, mesh, state, options, &marks);
           Stored expected = nothing;

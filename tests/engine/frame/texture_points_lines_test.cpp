@@ -1,5 +1,5 @@
-// Textures on points, lines and outlines: levels of detail along a line's length, one texel a point, outlines
-// as the lines they are.
+// Textures on points, lines and outlines: the level of detail along a line, one texel per point, and outlines
+// that match the lines they consist of.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,11 +37,12 @@ std::ptrdiff_t not_grey(const std::vector<std::uint32_t>& words) {
   return std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return (w & 0xffffff) != kGrey; });
 }
 
-// Pixels from the window's centre, by an angle; texels by pixels of length.
+// A line from the window's centre, by its angle in degrees and its texels per pixel of length.
 MeshData spoke(double degrees, double length_px, double texels, double texture_width) {
   MeshData mesh;
   mesh.primitive = Primitive::lines;
-  const double angle = degrees * 3.141592653589793 / 180, half = kSize / 2.0;
+  const double angle = degrees * 3.141592653589793 / 180;
+  const double half = kSize / 2.0;
   for (const double at : {0.0, length_px}) {
     mesh.positions.push_back(static_cast<float>(at * std::cos(angle) / half));
     mesh.positions.push_back(static_cast<float>(at * std::sin(angle) / half));
@@ -52,10 +53,10 @@ MeshData spoke(double degrees, double length_px, double texels, double texture_w
   return mesh;
 }
 
-// Columns of black and white, whose next level is grey all over: which level a pixel sees is plain to see.
-// Equation 3.15 knows no direction; by 3.14, the one of polygons, diagonals would have up to half a level
-// less.
-TEST(TexturedLines, TakeTheLevelOfDetailAlongTheirLength) {
+// Black and white columns whose next mipmap level is uniform grey, which shows the level of detail that a
+// pixel uses. Equation 3.15 does not depend on the direction; with 3.14, the equation for polygons, diagonals
+// would have up to half a level less.
+TEST(TexturedLines, UseTheLevelOfDetailAlongTheirLength) {
   std::vector<std::uint8_t> columns(64 * 2);
   for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = i % 2 == 0 ? 0 : 255;
   const Texture texture({.pixels = columns.data(), .width = 64, .height = 2, .channels = 1},
@@ -71,7 +72,7 @@ TEST(TexturedLines, TakeTheLevelOfDetailAlongTheirLength) {
           state.line_width = width;
           if (blends)
             state.blend = BlendState{.src = BlendFactor::one,
-                                     .dst = BlendFactor::one_minus_dst_alpha};  // the buffer's alpha is 1
+                                     .dst = BlendFactor::one_minus_dst_alpha};  // destination alpha is 1
           EXPECT_EQ(not_grey(drawn(spoke(degrees, 40, std::exp2(0.53), 64), state, samples)), 0) << where;
           const std::ptrdiff_t seen =
               not_grey(drawn(spoke(degrees, 40, std::exp2(0.47), 64), state, samples));
@@ -82,7 +83,7 @@ TEST(TexturedLines, TakeTheLevelOfDetailAlongTheirLength) {
         }
 }
 
-TEST(TexturedPoints, ShowOneTexelOfTheImageItself) {
+TEST(TexturedPoints, ShowOneTexelOfTheBaseLevel) {
   Random random(4);
   std::vector<std::uint8_t> pixels(3 * 8 * 8);
   for (std::uint8_t& byte : pixels) byte = static_cast<std::uint8_t>(random.next());
@@ -109,7 +110,7 @@ TEST(TexturedPoints, ShowOneTexelOfTheImageItself) {
         const std::vector<std::uint32_t> words = drawn(mesh, state);
         for (int y = 0; y < kSize; ++y)
           for (int x = 0; x < kSize; ++x) {
-            // Each point is in the middle of 12 pixels, of which it covers 10.
+            // Each point lies in the middle of 12 pixels and covers 10 of them.
             const bool covered = x % 12 >= 1 && x % 12 <= 10 && y % 12 >= 1 && y % 12 <= 10;
             const std::size_t texel = static_cast<std::size_t>(8 * ((kSize - 1 - y) / 12) + x / 12) * 3;
             const std::uint32_t expected =
@@ -122,14 +123,14 @@ TEST(TexturedPoints, ShowOneTexelOfTheImageItself) {
       }
 }
 
-// Of two words, in levels.
+// Largest difference of two packed colours, in levels.
 int most_apart(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
-  int most = 0;
+  int largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
     for (const int shift : {0, 8, 16})
-      most = std::max(
-          most, std::abs(static_cast<int>(a[i] >> shift & 255) - static_cast<int>(b[i] >> shift & 255)));
-  return most;
+      largest = std::max(
+          largest, std::abs(static_cast<int>(a[i] >> shift & 255) - static_cast<int>(b[i] >> shift & 255)));
+  return largest;
 }
 
 MeshData colored_lines(Random& random, int count) {
@@ -147,9 +148,9 @@ MeshData colored_lines(Random& random, int count) {
   return mesh;
 }
 
-// Pixels of a line may lie beyond its ends, where colours are extrapolated: they are cut before a texture,
-// and before they become greys. A blend that changes nothing takes another way there.
-TEST(TexturedLines, CutColorsThatLieBeyondTheirEnds) {
+// Pixels of a line may lie beyond its ends, where colours are extrapolated. They are clamped before texturing
+// and before conversion to luminance. A blend without effect selects another pixel path.
+TEST(TexturedLines, ClampColorsBeyondTheirEnds) {
   Random random(7);
   const std::uint8_t pixels[] = {128, 90, 60, 200, 255, 255, 255, 255};
   const Texture texture({.pixels = pixels, .width = 2, .height = 1},
@@ -167,7 +168,7 @@ TEST(TexturedLines, CutColorsThatLieBeyondTheirEnds) {
         state.texture_env = static_cast<TextureEnv>(round % 5);
         if (blends)
           state.blend = BlendState{.src = BlendFactor::one,
-                                   .dst = BlendFactor::one_minus_dst_alpha};  // the buffer's alpha is 1
+                                   .dst = BlendFactor::one_minus_dst_alpha};  // destination alpha is 1
         frame.draw(mesh.view(), state);
         Renderer({.threads = 1}).finish(frame);
         return packed_colors(buffer);
@@ -178,13 +179,14 @@ TEST(TexturedLines, CutColorsThatLieBeyondTheirEnds) {
   }
 }
 
-// One colour is worked in where texels are, if it came before the cut it would be another.
-TEST(TexturedLines, ShowOneColorAsTheyShowTexels) {
+// A one-colour texture is folded into the fragment colour; folding before the clamp would give another
+// result.
+TEST(TexturedLines, FoldOneColorAsTheyShowTexels) {
   Random random(8);
   const std::uint8_t pixels[] = {128, 100, 80, 200, 1, 2, 3, 4};
   const TextureSampler nearest{.mag = TextureFilter::nearest, .min = TextureFilter::nearest};
-  const Texture one({.pixels = pixels, .width = 1, .height = 1}, nearest),
-      two({.pixels = pixels, .width = 2, .height = 1}, nearest);
+  const Texture one({.pixels = pixels, .width = 1, .height = 1}, nearest);
+  const Texture two({.pixels = pixels, .width = 2, .height = 1}, nearest);
   for (int round = 0; round < 20; ++round)
     for (const int samples : {1, 4}) {
       MeshData mesh = colored_lines(random, 30);
@@ -201,7 +203,7 @@ TEST(TexturedLines, ShowOneColorAsTheyShowTexels) {
     }
 }
 
-TEST(TexturedOutlines, AreTexturedAsTheLinesAndPointsThatTheyAre) {
+TEST(TexturedOutlines, MatchTexturedLinesAndPoints) {
   Random random(6);
   std::vector<std::uint8_t> pixels(4 * 33 * 17);
   for (std::uint8_t& byte : pixels) byte = static_cast<std::uint8_t>(random.next());
@@ -220,7 +222,7 @@ TEST(TexturedOutlines, AreTexturedAsTheLinesAndPointsThatTheyAre) {
     DrawState state = replacing(texture);
     state.texture_env = static_cast<TextureEnv>(round % 5);
     state.alpha_test =
-        AlphaTest{.func = Compare::gequal, .ref = 0.25f};  // both by the code of draws with operations
+        AlphaTest{.func = Compare::gequal, .ref = 0.25f};  // both use the kernels with fragment operations
     state.line_width = round % 2 == 0 ? 1 : 4;
     state.point_size = 7;
     MeshData others = mesh;

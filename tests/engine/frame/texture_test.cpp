@@ -1,4 +1,4 @@
-// Textures through the public interface: what they look like, what is refused, and what costs nothing.
+// Textures through the public interface: pictures, errors, and effects that are elided.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,9 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 /// Random pixels, rows from the top.
 struct Pixels {
-  int width, height, channels;
+  int width;
+  int height;
+  int channels;
   std::vector<std::uint8_t> bytes;
 
   Pixels(int w, int h, int c, std::uint64_t seed = 1) : width(w), height(h), channels(c) {
@@ -58,7 +60,7 @@ DrawState replacing(const Texture& texture) {
 
 constexpr TextureSampler kNearest{.mag = TextureFilter::nearest, .min = TextureFilter::nearest};
 
-// What a draw of the whole window leaves: A:R:G:B words, rows from the top.
+// Stored pixels of a draw that covers the window: packed A:R:G:B, rows from the top.
 std::vector<std::uint32_t> drawn(const MeshData& mesh, const DrawState& state, FrameBufferFormat format,
                                  const RendererOptions& options = {.threads = 1}) {
   FrameBuffer buffer(std::move(format));
@@ -84,7 +86,7 @@ std::string refused(const TextureImage& image, const TextureSampler& sampler = {
 
 // ---- errors
 
-TEST(Texture, RefusesWhatIsNoImage) {
+TEST(Texture, InvalidImagesAreRefused) {
   const Pixels pixels(4, 4, 4);
   TextureImage image = pixels.image();
   image.width = 0;
@@ -108,7 +110,7 @@ TEST(Texture, RefusesWhatIsNoImage) {
             "Texture: mag is a filter with mipmaps, must be nearest or linear");
 }
 
-TEST(Texture, DrawsRefuseWhatTheyCannotUse) {
+TEST(Texture, DrawsRefuseUnusableTextures) {
   FrameBuffer buffer({.width = 8, .height = 8});
   Frame frame(buffer);
   Texture texture(Pixels(2, 2, 3).image());
@@ -128,7 +130,7 @@ TEST(Texture, DrawsRefuseWhatTheyCannotUse) {
   EXPECT_EQ(frame.draw_count(), 0u);
 }
 
-TEST(Texture, MayBeMovedBetweenDrawAndFinish) {
+TEST(Texture, CanBeMovedBetweenDrawAndFinish) {
   const Pixels pixels(2, 2, 3);
   Texture texture(pixels.image(), kNearest);
   FrameBuffer buffer({.width = 2, .height = 2});
@@ -144,7 +146,7 @@ TEST(Texture, MayBeMovedBetweenDrawAndFinish) {
 
 // ---- texels
 
-TEST(Texture, NearestShowsEveryTexelOfEveryNumberOfChannels) {
+TEST(Texture, NearestShowsEveryTexelForEveryNumberOfChannels) {
   for (int channels = 1; channels <= 4; ++channels) {
     const Pixels pixels(9, 7, channels);
     const Texture texture(pixels.image(), kNearest);
@@ -163,12 +165,13 @@ TEST(Texture, NearestShowsEveryTexelOfEveryNumberOfChannels) {
   }
 }
 
-TEST(Texture, RowsMayStandInAnyOrderWithGapsBetween) {
+TEST(Texture, RowsMayHaveAnyOrderAndGaps) {
   const Pixels pixels(5, 6, 3);
   const Texture plain(pixels.image(), kNearest);
   const std::vector<std::uint32_t> expected =
       drawn(textured_window(), replacing(plain), {.width = 5, .height = 6});
-  std::vector<std::uint8_t> spaced(6 * 20, 77), upwards(6 * 20, 77);
+  std::vector<std::uint8_t> spaced(6 * 20, 77);
+  std::vector<std::uint8_t> upwards(6 * 20, 77);
   for (int y = 0; y < 6; ++y)
     for (int i = 0; i < 15; ++i)
       spaced[static_cast<std::size_t>(20 * y + i)] = upwards[static_cast<std::size_t>(20 * (5 - y) + i)] =
@@ -187,7 +190,7 @@ TEST(Texture, RowsMayStandInAnyOrderWithGapsBetween) {
             expected);
 }
 
-// The plain definition, in whole numbers on a scale on which both sizes' texels are whole.
+// Mipmaps by definition, in integers: the scale makes the texels of both sizes whole.
 std::uint32_t mean_of_cover(const std::vector<std::uint32_t>& from, std::int64_t w, std::int64_t h,
                             std::int64_t next_w, std::int64_t next_h, std::int64_t i, std::int64_t j) {
   std::uint32_t word = 0;
@@ -208,8 +211,8 @@ std::uint32_t mean_of_cover(const std::vector<std::uint32_t>& from, std::int64_t
   return word;
 }
 
-// Each size is drawn so small that it is the nearest one, texel by pixel.
-TEST(Texture, MipmapsAreTheMeansOfWhatTheyCoverForAnySize) {
+// Each image is drawn so small that one texel of the level covers one pixel.
+TEST(Texture, MipmapsAreMeansOfTheCoveredTexelsForAnySize) {
   constexpr int kSizes[][2] = {{16, 8}, {7, 5}, {33, 17}, {6, 1}, {1, 9}, {12, 10}, {3, 3}};
   for (const auto& [width, height] : kSizes) {
     const Pixels pixels(width, height, 4, 3);
@@ -222,13 +225,14 @@ TEST(Texture, MipmapsAreTheMeansOfWhatTheyCoverForAnySize) {
                                                    pixels.at(x, y, 2)) |
                         static_cast<std::uint32_t>(pixels.at(x, y, 3)) << 24);
     for (int w = width, h = height; w > 1 || h > 1;) {
-      const int next_w = std::max(w / 2, 1), next_h = std::max(h / 2, 1);
+      const int next_w = std::max(w / 2, 1);
+      const int next_h = std::max(h / 2, 1);
       std::vector<std::uint32_t> next;
       for (int j = 0; j < next_h; ++j)
         for (int i = 0; i < next_w; ++i) next.push_back(mean_of_cover(level, w, h, next_w, next_h, i, j));
       level = next;
       w = next_w, h = next_h;
-      // The level of detail must round to this one.
+      // The level of detail must round to this level.
       const double detail = std::log2(
           std::max(static_cast<double>(width) / w, height > 1 ? static_cast<double>(height) / h : 0.0));
       int wanted = 0;
@@ -245,7 +249,7 @@ TEST(Texture, MipmapsAreTheMeansOfWhatTheyCoverForAnySize) {
   }
 }
 
-TEST(Texture, OneRowKnowsNoT) {
+TEST(Texture, OneRowIgnoresT) {
   const Pixels pixels(8, 1, 3);
   for (const TextureFilter filter :
        {TextureFilter::nearest, TextureFilter::linear, TextureFilter::linear_mipmap_linear}) {
@@ -257,14 +261,15 @@ TEST(Texture, OneRowKnowsNoT) {
   }
 }
 
-// ---- what costs nothing
+// ---- elided effects
 
-TEST(Texture, OneColorIsFoldedAndLooksLikeTexels) {
-  // The same picture by texels: a second colour stands where no coordinate goes.
+TEST(Texture, OneColorIsFoldedAndMatchesTexels) {
+  // The same picture with texels: the second colour lies outside all texture coordinates.
   const Pixels one(1, 1, {200, 100, 50, 128});
   Pixels two(64, 1, {200, 100, 50, 128});
   two.bytes[4 * 63] = 0;
-  const Texture folded(one.image(), kNearest), sampled(two.image(), kNearest);
+  const Texture folded(one.image(), kNearest);
+  const Texture sampled(two.image(), kNearest);
   MeshData mesh = textured_window(0.5f, 0.5f);
   mesh.normals = {0, 0, 1, 0.6f, 0, 0.8f, 0, 0, 1, 0, 0.6f, 0.8f};
   mesh.colors = {1, 0, 0, 1, 0, 1, 0, 0.5f, 0.2f, 0.9f, 1, 0.25f, 1, 1, 1, 1};
@@ -299,9 +304,11 @@ TEST(Texture, OneColorIsFoldedAndLooksLikeTexels) {
           }
 }
 
-TEST(Texture, WhatChangesNothingIsLeftOut) {
-  const Pixels white(4, 4, {255, 255, 255}), black(4, 4, {0, 0, 0}), clear(4, 4, {9, 8, 7, 0}),
-      veil(4, 4, {255, 255, 255, 128});
+TEST(Texture, TexturesWithoutEffectAreElided) {
+  const Pixels white(4, 4, {255, 255, 255});
+  const Pixels black(4, 4, {0, 0, 0});
+  const Pixels clear(4, 4, {9, 8, 7, 0});
+  const Pixels veil(4, 4, {255, 255, 255, 128});
   const MeshData mesh = textured_window();
   DrawState state;
   const auto explain = [&](const Pixels& pixels, TextureEnv env) {
@@ -315,19 +322,21 @@ TEST(Texture, WhatChangesNothingIsLeftOut) {
   EXPECT_THAT(explain(black, TextureEnv::add), HasSubstr(kNothing));
   EXPECT_THAT(explain(black, TextureEnv::blend), HasSubstr(kNothing));
   EXPECT_THAT(explain(clear, TextureEnv::decal), HasSubstr(kNothing));
-  EXPECT_THAT(explain(veil, TextureEnv::modulate), HasSubstr(kNothing)) << "nothing looks at alpha";
+  EXPECT_THAT(explain(veil, TextureEnv::modulate), HasSubstr(kNothing)) << "alpha is not used";
   EXPECT_THAT(explain(white, TextureEnv::replace), HasSubstr("folded"));
   EXPECT_THAT(explain(black, TextureEnv::modulate), HasSubstr("folded"));
   state.alpha_test = AlphaTest{};
-  EXPECT_THAT(explain(veil, TextureEnv::modulate), HasSubstr("folded")) << "an alpha test does";
+  EXPECT_THAT(explain(veil, TextureEnv::modulate), HasSubstr("folded")) << "an alpha test uses alpha";
   state.alpha_test.reset();
   state.blend = BlendState{};
-  EXPECT_THAT(explain(veil, TextureEnv::modulate), HasSubstr("folded")) << "blending does";
+  EXPECT_THAT(explain(veil, TextureEnv::modulate), HasSubstr("folded")) << "blending uses alpha";
 }
 
-TEST(Texture, WithoutColorsToChangeItIsLeftOut) {
-  const Pixels pixels(4, 4, 4), opaque(4, 4, 3);
-  const Texture texture(pixels.image()), without_alpha(opaque.image());
+TEST(Texture, TextureIsElidedWithoutColorOutput) {
+  const Pixels pixels(4, 4, 4);
+  const Pixels opaque(4, 4, 3);
+  const Texture texture(pixels.image());
+  const Texture without_alpha(opaque.image());
   DrawState state;
   state.texture = &texture;
   state.color_mask = {false, false, false, false};
@@ -347,7 +356,8 @@ TEST(Texture, WithoutColorsToChangeItIsLeftOut) {
       HasSubstr("texture left out"));
 }
 
-// s = t = 0 everywhere: the texel there, under a linear filter the mean of the four around the corner.
+// s and t are 0 everywhere: the texel at the origin; with a linear filter, the mean of the four around that
+// corner.
 TEST(Texture, WithoutCoordinatesTheOriginIsShown) {
   const Pixels pixels(3, 4, 4);
   for (const TextureFilter mag : {TextureFilter::nearest, TextureFilter::linear})
@@ -365,9 +375,9 @@ TEST(Texture, WithoutCoordinatesTheOriginIsShown) {
     }
 }
 
-// ---- with everything else
+// ---- combinations
 
-TEST(Texture, AlphaTestsLookAtTexels) {
+TEST(Texture, AlphaTestsUseTexelAlpha) {
   Pixels pixels(4, 1, {255, 255, 255, 0});
   for (std::size_t i = 0; i < 4; ++i) pixels.bytes[4 * i + 3] = static_cast<std::uint8_t>(85 * i);
   const Texture texture(pixels.image(), kNearest);
@@ -382,7 +392,8 @@ TEST(Texture, AlphaTestsLookAtTexels) {
       const MeshData mesh = textured_window();
       frame.draw(mesh.view(), state);
       Renderer({.threads = 1}).finish(frame);
-      const std::vector<std::uint32_t> depths = stored_depths(buffer), colors = packed_colors(buffer);
+      const std::vector<std::uint32_t> depths = stored_depths(buffer);
+      const std::vector<std::uint32_t> colors = packed_colors(buffer);
       for (std::size_t i = 0; i < 16; ++i) {
         EXPECT_EQ(depths[i] != 0xffffff, i % 4 == 3) << i;
         EXPECT_EQ(colors[i] != 0, writes_color && i % 4 == 3) << i;
@@ -406,25 +417,25 @@ TEST(Texture, LevelsEqualThemselvesInAlphaTests) {
     }
 }
 
-TEST(Texture, OdditiesOfCoordinatesDropTheirTriangles) {
+TEST(Texture, OddCoordinatesDropTheirTriangles) {
   const Pixels pixels(4, 4, 3);
   const Texture texture(pixels.image());
   FrameBuffer buffer({.width = 8, .height = 8});
   Frame frame(buffer);
   MeshData mesh = textured_window();
-  mesh.texcoords[2] = kNan;  // vertex 1 belongs to the first triangle alone
+  mesh.texcoords[2] = kNan;  // vertex 1 belongs to the first triangle only
   frame.draw(mesh.view(), replacing(texture));
   EXPECT_EQ(Renderer({.threads = 1}).finish(frame).dropped_non_finite, 1u);
 }
 
-// Perspective, minification, clipping, all operations: the same bits for any number of threads, tile size,
-// instruction set and time of shading.
-TEST(Texture, BitsDependOnNothingButTheFrame) {
+// Perspective, minification, clipping and all operations: the same bits for any number of threads, tile size,
+// instruction set and shading time.
+TEST(Texture, BitsDoNotDependOnRendererOptions) {
   Random random(8);
   MeshData mesh;
   for (int i = 0; i < 300; ++i) {
-    const float size = i % 10 == 0 ? 5.0f : 0.5f,
-                center[3] = {random.between(-3, 3), random.between(-2, 2), random.between(-8, 0)};
+    const float size = i % 10 == 0 ? 5.0f : 0.5f;
+    const float center[3] = {random.between(-3, 3), random.between(-2, 2), random.between(-8, 0)};
     for (int k = 0; k < 3; ++k) {
       for (const float c : center) mesh.positions.push_back(c + random.between(-size, size));
       for (int c = 0; c < 3; ++c) mesh.normals.push_back(random.between(-1, 1));
@@ -432,7 +443,9 @@ TEST(Texture, BitsDependOnNothingButTheFrame) {
       for (int c = 0; c < 2; ++c) mesh.texcoords.push_back(random.between(-4, 4));
     }
   }
-  const Pixels grey(17, 9, 2, 4), rgb(64, 64, 3, 5), rgba(16, 32, 4, 6);
+  const Pixels grey(17, 9, 2, 4);
+  const Pixels rgb(64, 64, 3, 5);
+  const Pixels rgba(16, 32, 4, 6);
   const Texture textures[] = {Texture(rgb.image()),
                               Texture(grey.image(), {.mag = TextureFilter::nearest,
                                                      .min = TextureFilter::linear_mipmap_nearest,
@@ -477,7 +490,7 @@ TEST(Texture, BitsDependOnNothingButTheFrame) {
   }
 }
 
-TEST(Texture, CapturesAndCountsSeeWhatAlphaTestsLetThrough) {
+TEST(Texture, CapturesAndCountsFollowTheAlphaTest) {
   Pixels pixels(2, 1, {255, 255, 255, 0});
   pixels.bytes[7] = 255;
   const Texture texture(pixels.image(), kNearest);

@@ -1,6 +1,6 @@
-// Textured triangles whose pixels are shaded at once take a way of their own. A stencil test that all
-// fragments pass leads through what fragments of operations go through: the same words, and as many pixels
-// shaded.
+// Textured triangles with immediate shading have a specialized pixel path. A stencil test that every fragment
+// passes selects the path with fragment operations: both give the same pixels and the same number of shaded
+// pixels.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -14,12 +14,13 @@ using namespace test;
 
 constexpr int kWidth = 200, kHeight = 140;
 
-// Some larger than the picture, some clipped, some seen from the back.
+// Some larger than the picture, some clipped, some back-facing.
 MeshData triangles(Random& random) {
   MeshData mesh;
   mesh.position_components = 4;
   for (int i = 0; i < 24; ++i) {
-    const float size = i % 3 == 0 ? 3.0f : 0.6f, x = random.between(-1, 1), y = random.between(-1, 1);
+    const float size = i % 3 == 0 ? 3.0f : 0.6f;
+    const float x = random.between(-1, 1), y = random.between(-1, 1);
     for (int k = 0; k < 3; ++k) {
       const float w = i % 2 == 0 ? 1.0f : random.between(0.3f, 3);
       mesh.positions.insert(mesh.positions.end(),
@@ -38,8 +39,8 @@ struct Result {
 };
 Result drawn(const MeshData& mesh, DrawState state, InstructionSet set, bool with_operations,
              const FrameBufferFormat& config) {
-  if (with_operations)
-    state.stencil = StencilState{.front = {.func = Compare::equal}};  // to 0, which is all there is
+  // Every fragment passes: the whole stencil buffer is 0.
+  if (with_operations) state.stencil = StencilState{.front = {.func = Compare::equal}};
   FrameBuffer buffer(config);
   Frame frame(buffer);
   frame.clear({.color = Color{0.2f, 0.4f, 0.6f, 1}, .depth = 0.8, .stencil = 0u});
@@ -49,7 +50,7 @@ Result drawn(const MeshData& mesh, DrawState state, InstructionSet set, bool wit
   return {packed_colors(buffer), stats.shaded_pixels};
 }
 
-TEST(TextureWays, OfTrianglesAtOnceComeToTheSame) {
+TEST(TexturePaths, ImmediatePathMatchesThePathWithOperations) {
   Random random(31);
   std::vector<std::uint8_t> pixels(4 * 32 * 16);
   for (std::uint8_t& byte : pixels) byte = static_cast<std::uint8_t>(random.next());
@@ -71,7 +72,7 @@ TEST(TextureWays, OfTrianglesAtOnceComeToTheSame) {
     state.texture_env =
         round % 10 == 0
             ? TextureEnv::replace
-            : static_cast<TextureEnv>(random.next() % 5);  // nearest texels alone have rows of their own
+            : static_cast<TextureEnv>(random.next() % 5);  // nearest texels have separate row kernels
     state.texture_env_color = {0.3f, 0.9f, 0.1f, 1};
     state.depth = {.enabled = round % 2 == 1, .write = round % 4 == 1};
     if (round % 3 == 1) state.scissor = Rect{.x = 0, .y = 0, .width = 128, .height = 64};

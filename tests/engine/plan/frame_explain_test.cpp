@@ -1,4 +1,4 @@
-// What the plan of a draw says: which effects are in, which are left out, and why.
+// Explanations of a draw's plan: active effects, elided effects, and the reasons.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,8 @@ struct Setting {
   std::vector<Light> lights{Light{}};
   LightModel model{};
   DrawState state{};
-  bool normals = true, colors = false;
+  bool normals = true;
+  bool colors = false;
 };
 
 std::string explain(const Setting& setting) {
@@ -37,7 +38,7 @@ Light point_light() {
   return light;
 }
 
-TEST(Explain, ABlackSpecularProductHasNoHighlight) {
+TEST(Explain, BlackSpecularProductHasNoHighlight) {
   Setting s;
   EXPECT_THAT(explain(s), AllOf(HasSubstr("light 0"), HasSubstr("directional"), HasSubstr("no highlight"),
                                 HasSubstr("black")));
@@ -51,7 +52,7 @@ TEST(Explain, ABlackSpecularProductHasNoHighlight) {
   EXPECT_THAT(explain(s), HasSubstr("no highlight")) << "red times cyan";
 }
 
-TEST(Explain, ACutoffOf180IsNoSpot) {
+TEST(Explain, CutoffOf180IsNoSpot) {
   Setting s;
   s.lights = {point_light()};
   EXPECT_THAT(explain(s), AllOf(HasSubstr("point"), Not(HasSubstr("spot"))));
@@ -59,7 +60,7 @@ TEST(Explain, ACutoffOf180IsNoSpot) {
   EXPECT_THAT(explain(s), AllOf(HasSubstr("spot"), Not(HasSubstr("point"))));
 }
 
-TEST(Explain, AnAttenuationOf1_0_0IsLeftOut) {
+TEST(Explain, AttenuationOf1_0_0IsElided) {
   Setting s;
   s.lights = {point_light()};
   EXPECT_THAT(explain(s), HasSubstr("attenuation 1 0 0 left out"));
@@ -69,7 +70,7 @@ TEST(Explain, AnAttenuationOf1_0_0IsLeftOut) {
   EXPECT_THAT(explain(s), HasSubstr("spot with attenuation"));
 }
 
-TEST(Explain, LightsThatAddBlackAreLeftOut) {
+TEST(Explain, LightsThatAddBlackAreElided) {
   Setting s;
   s.lights.assign(3, Light{});
   s.lights[1].diffuse = s.lights[1].specular = {0, 0, 0, 1};
@@ -79,7 +80,7 @@ TEST(Explain, LightsThatAddBlackAreLeftOut) {
   EXPECT_THAT(explain(s), AllOf(HasSubstr("light 1: "), HasSubstr("constant ambient")));
 }
 
-TEST(Explain, WithoutLightsTheDrawHasOneColor) {
+TEST(Explain, DrawWithoutLightsHasOneColor) {
   Setting s;
   s.lights.clear();
   for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
@@ -88,7 +89,7 @@ TEST(Explain, WithoutLightsTheDrawHasOneColor) {
   }
 }
 
-TEST(Explain, UnlitDrawsTellWhereTheirColorComesFrom) {
+TEST(Explain, UnlitDrawsNameTheSourceOfTheirColor) {
   Setting s;
   s.state.lighting = false;
   EXPECT_THAT(explain(s), AllOf(HasSubstr("unlit"), HasSubstr("no vertex colours"), HasSubstr("one colour"),
@@ -98,17 +99,17 @@ TEST(Explain, UnlitDrawsTellWhereTheirColorComesFrom) {
               AllOf(HasSubstr("unlit vertex colours"), Not(HasSubstr("one colour for the draw"))));
 }
 
-TEST(Explain, VertexColorsMatterOnlyWhereAMaterialFollowsThem) {
+TEST(Explain, VertexColorsMatterOnlyIfAMaterialFollowsThem) {
   Setting s;
   s.colors = true;
   EXPECT_THAT(explain(s), Not(HasSubstr("vertex colours")));
   s.state.color_material = ColorMaterial::diffuse;
   EXPECT_THAT(explain(s), HasSubstr("vertex colours"));
   s.colors = false;
-  EXPECT_THAT(explain(s), Not(HasSubstr("or vertex colours"))) << "the mesh has none";
+  EXPECT_THAT(explain(s), Not(HasSubstr("or vertex colours"))) << "the mesh has no vertex colours";
 }
 
-TEST(Explain, MasksTellWhetherColorIsThereAtAll) {
+TEST(Explain, MasksDecideWhetherColorIsComputed) {
   Setting s;
   EXPECT_THAT(explain(s), Not(HasSubstr("mask")));
   s.state.plane_mask = 0xff00;
@@ -123,7 +124,7 @@ TEST(Explain, MasksTellWhetherColorIsThereAtAll) {
   EXPECT_THAT(explain(s), HasSubstr("no colour plane changes"));
 }
 
-TEST(Explain, DepthThatCannotMatterIsLeftOut) {
+TEST(Explain, DepthWithoutEffectIsElided) {
   Setting s;
   EXPECT_THAT(explain(s),
               AllOf(HasSubstr("depth test"), Not(HasSubstr("no depth test")), Not(HasSubstr("no write"))));
@@ -138,7 +139,7 @@ TEST(Explain, DepthThatCannotMatterIsLeftOut) {
   EXPECT_THAT(explain(s), HasSubstr("no depth test"));
 }
 
-TEST(Explain, DrawsThatChangeNoPixelAreLeftOutWhole) {
+TEST(Explain, DrawsThatChangeNoPixelAreElided) {
   Setting s;
   s.state.depth.test = Compare::never;
   EXPECT_THAT(explain(s), HasSubstr("can change no pixel"));
@@ -160,7 +161,7 @@ TEST(Explain, TwoSidedLightingHasASecondProgramUnlessBacksAreCulled) {
   EXPECT_THAT(explain(s), Not(HasSubstr("back faces")));
 }
 
-TEST(Explain, ShadingTellsHowOftenItIsLit) {
+TEST(Explain, NamesTheShadingFrequency) {
   Setting s;
   s.state.shading = Shading::phong;
   EXPECT_THAT(explain(s), HasSubstr("lit at each visible pixel"));
@@ -174,7 +175,7 @@ TEST(Explain, ShadingTellsHowOftenItIsLit) {
   EXPECT_THAT(explain(s), AllOf(HasSubstr("no normals"), HasSubstr("area-weighted")));
 }
 
-TEST(Explain, ColorsOfSamplesWaitOnlyWhereMoreThanStoringFollows) {
+TEST(Explain, SampleColorsAreDeferredOnlyWithOperations) {
   Setting s;
   s.state.shading = Shading::gouraud;
   for (const int samples : {1, 4, 8}) {
@@ -187,7 +188,7 @@ TEST(Explain, ColorsOfSamplesWaitOnlyWhereMoreThanStoringFollows) {
   EXPECT_THAT(explain(s), HasSubstr("colours interpolated at once"));
 }
 
-TEST(Explain, EachLineIsOneEffectAndDrawsAreTold) {
+TEST(Explain, WritesOneEffectPerLine) {
   FrameBuffer buffer({.width = 4, .height = 4});
   Frame frame(buffer);
   const MeshData mesh = whole_window();

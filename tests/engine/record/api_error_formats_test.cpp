@@ -1,5 +1,5 @@
-// Frame buffers, palettes, renderers and matrices refuse what they cannot be, and say what was found and what
-// was needed.
+// Errors of frame buffers, palettes, renderers and matrices: each message names the value found and the value
+// expected.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,14 +15,14 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
-                 kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 
 struct Misuse {
   const char* what;
   std::function<void()> act;
-  std::vector<std::string> says;  ///< all of it
+  std::vector<std::string> substrings;  ///< all substrings of the message
 };
 
 void expect_errors(const std::vector<Misuse>& misuses) {
@@ -30,10 +30,10 @@ void expect_errors(const std::vector<Misuse>& misuses) {
     SCOPED_TRACE(misuse.what);
     const std::optional<std::string> error = error_of(misuse.act);
     if (!error) {
-      ADD_FAILURE() << "is no error";
+      ADD_FAILURE() << "no error was thrown";
       continue;
     }
-    for (const std::string& words : misuse.says) EXPECT_THAT(*error, HasSubstr(words));
+    for (const std::string& words : misuse.substrings) EXPECT_THAT(*error, HasSubstr(words));
   }
 }
 
@@ -65,7 +65,7 @@ TEST(ErrorsOfFrameBuffers, NameSizesAndBitsOutOfRange) {
   });
 }
 
-TEST(ErrorsOfFrameBuffers, NamePlanesAndSamplesThatThereAreNot) {
+TEST(ErrorsOfFrameBuffers, NameMissingPlanesAndSamples) {
   const std::vector<Misuse> misuses{
       {"4 alpha bits", make({.alpha_bits = 4}), {"alpha_bits is 4", "0 or 8"}},
       {"-8 alpha bits", make({.alpha_bits = -8}), {"alpha_bits is -8", "0 or 8"}},
@@ -87,7 +87,7 @@ TEST(ErrorsOfFrameBuffers, NamePlanesAndSamplesThatThereAreNot) {
        {"accumulation buffer", "index", "rgb"}},
   };
   expect_errors(misuses);
-  // Whoever asks for the memory first is told the same.
+  // The first allocation of the planes reports the same error, whichever call makes it.
   const auto bytes = [](FrameBufferFormat format) {
     return [format] { (void)FrameBuffer::memory_bytes(format); };
   };
@@ -98,7 +98,7 @@ TEST(ErrorsOfFrameBuffers, NamePlanesAndSamplesThatThereAreNot) {
   });
 }
 
-TEST(ErrorsOfFrameBuffers, NameWhatIsWrongWithAPalette) {
+TEST(ErrorsOfFrameBuffers, NameTheFaultOfAPalette) {
   expect_errors({
       {"palette of an RGB buffer", make({.palette = {Color{}}}), {"palette", "rgb", "index"}},
       {"3 entries in 1 bit", make(index_format(1, {{}, {}, {}})), {"3 entries", "1 bit", "at most 2"}},
@@ -137,7 +137,7 @@ TEST(ErrorsOfRenderers, NameOptionsOutOfRange) {
   });
 }
 
-TEST(ErrorsOfRenderers, NameTheInstructionSetThatIsNotThere) {
+TEST(ErrorsOfRenderers, NameAMissingInstructionSet) {
   const std::vector<InstructionSet> there = available_instruction_sets();
   ASSERT_EQ(there.back(), InstructionSet::scalar);
   for (const InstructionSet set : {InstructionSet::scalar, InstructionSet::avx2, InstructionSet::avx512}) {
@@ -200,7 +200,7 @@ TEST(ErrorsOfMatrices, NameEmptyAndNonFiniteVolumes) {
   });
 }
 
-TEST(NamedMaterials, UnknownNamesAreNoError) {
+TEST(NamedMaterials, UnknownNamesAreNotAnError) {
   EXPECT_FALSE(named_material("cheese"));
   EXPECT_FALSE(named_material(""));
   for (const std::string_view known : material_names()) EXPECT_TRUE(named_material(known)) << known;

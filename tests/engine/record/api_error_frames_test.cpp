@@ -1,5 +1,4 @@
-// Recording refuses what no frame can do, says what was found and what was needed, and nothing has changed
-// afterwards.
+// Errors of recording: each message names the value found and the value expected, and the frame is unchanged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,13 +13,13 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
-                kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct Misuse {
   const char* what;
   std::function<void(Frame&)> act;
-  std::vector<std::string> says;  ///< all of it
+  std::vector<std::string> substrings;  ///< all substrings of the message
 };
 
 const FrameBufferFormat kRgb{.width = 24, .height = 16, .stencil_bits = 3};
@@ -30,9 +29,9 @@ const FrameBufferFormat kGrey1{.width = 24, .height = 16, .color_bits = 1};
 const FrameBufferFormat kGrey2{.width = 24, .height = 16, .color_bits = 2};
 const FrameBufferFormat kBare{.width = 24, .height = 16, .depth = DepthFormat::none, .stencil_bits = 0};
 
-// A frame that works: half before the misuse, half after it.
-const MeshData kLeft = rectangle(-0.9f, -0.9f, 0.1f, 0.8f, 0.2f),
-               kRight = rectangle(-0.3f, -0.5f, 0.9f, 0.9f, -0.2f);
+// A valid frame: half of it recorded before the misuse, half after it.
+const MeshData kLeft = rectangle(-0.9f, -0.9f, 0.1f, 0.8f, 0.2f);
+const MeshData kRight = rectangle(-0.3f, -0.5f, 0.9f, 0.9f, -0.2f);
 void record_first_half(Frame& frame) {
   frame.clear({.color = Color{0.2f, 0.3f, 0.4f, 1}});
   frame.draw(kLeft.view(), {});
@@ -52,27 +51,28 @@ void expect_errors(const FrameBufferFormat& format, const std::vector<Misuse>& m
     Frame frame(buffer);
     record_first_half(frame);
     const std::optional<std::string> error = error_of([&] { misuse.act(frame); });
-    EXPECT_TRUE(error) << "is no error";
-    for (const std::string& words : misuse.says) EXPECT_THAT(error.value_or(""), HasSubstr(words));
+    EXPECT_TRUE(error) << "no error was thrown";
+    for (const std::string& words : misuse.substrings) EXPECT_THAT(error.value_or(""), HasSubstr(words));
     EXPECT_EQ(frame.draw_count(), 1u);
     record_second_half(frame);
     renderer.finish(frame);
-    EXPECT_EQ(fingerprint(buffer), fingerprint(undisturbed)) << "something changed";
+    EXPECT_EQ(fingerprint(buffer), fingerprint(undisturbed)) << "the frame has changed";
   }
 }
 
-Misuse light(const char* what, const std::function<void(Light&)>& change, std::vector<std::string> says) {
-  says.push_back("light 1");
+Misuse light(const char* what, const std::function<void(Light&)>& change,
+             std::vector<std::string> substrings) {
+  substrings.push_back("light 1");
   return {what,
           [change](Frame& frame) {
             std::vector<Light> lights(3);
             change(lights[1]);
             frame.set_lights(lights);
           },
-          std::move(says)};
+          std::move(substrings)};
 }
 
-TEST(ErrorsOfFrames, NameLightsAndCamerasThatAreNone) {
+TEST(ErrorsOfFrames, NameInvalidLightsAndCameras) {
   expect_errors(
       kRgb,
       {
@@ -115,8 +115,8 @@ TEST(ErrorsOfFrames, NameLightsAndCamerasThatAreNone) {
       });
 }
 
-Misuse clear(const char* what, const Clear& clear, std::vector<std::string> says) {
-  return {what, [clear](Frame& frame) { frame.clear(clear); }, std::move(says)};
+Misuse clear(const char* what, const Clear& clear, std::vector<std::string> substrings) {
+  return {what, [clear](Frame& frame) { frame.clear(clear); }, std::move(substrings)};
 }
 
 TEST(ErrorsOfFrames, NameClearsOutOfRangeOrOfMissingBuffers) {
@@ -159,11 +159,11 @@ TEST(ErrorsOfFrames, NameClearsOutOfRangeOrOfMissingBuffers) {
                 });
 }
 
-Misuse accumulate(const char* what, const Accum& accum, std::vector<std::string> says) {
-  return {what, [accum](Frame& frame) { frame.accumulate(accum); }, std::move(says)};
+Misuse accumulate(const char* what, const Accum& accum, std::vector<std::string> substrings) {
+  return {what, [accum](Frame& frame) { frame.accumulate(accum); }, std::move(substrings)};
 }
 
-TEST(ErrorsOfFrames, NameAccumulationsThatCannotBe) {
+TEST(ErrorsOfFrames, NameInvalidAccumulations) {
   expect_errors(kAccumulating,
                 {
                     accumulate("value nan", {.value = double{kNan}}, {"value", "nan", "finite"}),
@@ -184,17 +184,17 @@ TEST(ErrorsOfFrames, NameAccumulationsThatCannotBe) {
 const std::vector<float> kTwoTriangles(18, 0.5f);
 const std::vector<std::uint32_t> kIndices{0, 1, 2, 3, 4, 5};
 
-Misuse mesh(const char* what, const std::function<void(Mesh&)>& change, std::vector<std::string> says) {
+Misuse mesh(const char* what, const std::function<void(Mesh&)>& change, std::vector<std::string> substrings) {
   return {what,
           [change](Frame& frame) {
             Mesh m{.positions = kTwoTriangles};
             change(m);
             frame.draw(m, {});
           },
-          std::move(says)};
+          std::move(substrings)};
 }
 
-TEST(ErrorsOfFrames, NameSpansThatDoNotFitTogether) {
+TEST(ErrorsOfFrames, NameMismatchedSpans) {
   static const std::vector<float> floats(64, 0.0f);
   const auto first = [](std::size_t n) { return std::span<const float>(floats).first(n); };
   expect_errors(
@@ -230,14 +230,15 @@ TEST(ErrorsOfFrames, NameSpansThatDoNotFitTogether) {
       });
 }
 
-Misuse state(const char* what, const std::function<void(DrawState&)>& change, std::vector<std::string> says) {
+Misuse state(const char* what, const std::function<void(DrawState&)>& change,
+             std::vector<std::string> substrings) {
   return {what,
           [change](Frame& frame) {
             DrawState s;
             change(s);
             frame.draw(kLeft.view(), s);
           },
-          std::move(says)};
+          std::move(substrings)};
 }
 
 TEST(ErrorsOfFrames, NameDrawStatesOutOfRange) {
@@ -344,21 +345,23 @@ TEST(ErrorsOfFrames, NameOperationsWithoutTheirBuffer) {
                             state("blending of indices", [](DrawState& s) { s.blend.emplace(); },
                                   {"blending", "indices", "do not blend"}),
                         });
-  // These need none.
-  FrameBuffer bare(kBare), index(kIndex);
-  Frame into_bare(bare), into_index(index);
+  // These need no buffer.
+  FrameBuffer bare(kBare);
+  FrameBuffer index(kIndex);
+  Frame into_bare(bare);
+  Frame into_index(index);
   DrawState plain;
   plain.polygon_offset = {0, 0};
   plain.blend.emplace();
   EXPECT_FALSE(error_of([&] { into_bare.draw(kLeft.view(), plain); }))
-      << "an offset of nothing, and a blend with the copying logic operation";
+      << "an offset of 0, and a blend with the copying logic operation";
   DrawState logic;
   logic.logic_op = LogicOp::bit_xor;
   logic.stencil.emplace();
   EXPECT_FALSE(error_of([&] { into_index.draw(kLeft.view(), logic); }));
 }
 
-TEST(ErrorsOfFrames, NameColorMasksThatSplitWhatIsOne) {
+TEST(ErrorsOfFrames, NameColorMasksThatSplitAPackedValue) {
   const auto masked = [](std::array<bool, 4> mask) {
     return state("a split mask", [mask](DrawState& s) { s.color_mask = mask; }, {"mask", "all or none"});
   };
@@ -372,7 +375,7 @@ TEST(ErrorsOfFrames, NameColorMasksThatSplitWhatIsOne) {
         DrawState s;
         s.color_mask = {all, all, all, alpha};
         EXPECT_FALSE(error_of([&] { frame.draw(kLeft.view(), s); }))
-            << "alpha has no plane: its mask does not matter";
+            << "the buffer has no alpha plane: its mask has no effect";
       }
   }
 }

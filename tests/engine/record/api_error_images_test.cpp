@@ -1,5 +1,5 @@
-// Images that do not fit and buffers that are not there are refused before a pixel is touched; a refused
-// frame is still recorded.
+// Mismatched images and missing buffers are refused before a pixel is touched; the refused frame is still
+// recorded.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 struct BadImage {
   const char* what;
   std::function<void(ImageTarget&)> change;
-  std::vector<std::string> says;
+  std::vector<std::string> substrings;
 };
 const std::vector<BadImage> kBadImages = {
     {"null pixels", [](ImageTarget& t) { t.pixels = nullptr; }, {"null"}},
@@ -35,9 +35,10 @@ const std::vector<BadImage> kBadImages = {
 const FrameBufferFormat kFormat{.width = 20, .height = 10};
 const MeshData kMesh = rectangle(-0.5f, -0.5f, 0.5f, 0.5f);
 
-TEST(ErrorsOfImages, LeaveTheFrameRecordedAndTheBufferAsItWas) {
+TEST(ErrorsOfImages, LeaveTheFrameRecordedAndTheBufferUnchanged) {
   Renderer renderer({.threads = 1});
-  FrameBuffer plain(kFormat), buffer(kFormat);
+  FrameBuffer plain(kFormat);
+  FrameBuffer buffer(kFormat);
   Frame expected(plain);
   expected.clear({.color = Color{0, 0, 1, 1}});
   expected.draw(kMesh.view(), {});
@@ -55,13 +56,14 @@ TEST(ErrorsOfImages, LeaveTheFrameRecordedAndTheBufferAsItWas) {
     bad.change(target);
     const auto error = error_of([&] { renderer.finish(frame, target); });
     ASSERT_TRUE(error);
-    for (const std::string& words : bad.says) EXPECT_THAT(*error, HasSubstr(words));
+    for (const std::string& words : bad.substrings) EXPECT_THAT(*error, HasSubstr(words));
     EXPECT_EQ(frame.draw_count(), 1u);
     EXPECT_EQ(fingerprint(buffer), before);
     EXPECT_THAT(image.bytes, Each(0));
   }
   renderer.finish(frame, image.target());
-  EXPECT_EQ(fingerprint(buffer), fingerprint(plain)) << "the frame ran whole, and what it kept counts";
+  EXPECT_EQ(fingerprint(buffer), fingerprint(plain))
+      << "the frame was rendered completely and kept its buffers";
   EXPECT_EQ(frame.draw_count(), 0u);
 }
 
@@ -75,12 +77,12 @@ TEST(ErrorsOfImages, AreTheSameForReadingBack) {
     bad.change(target);
     const auto error = error_of([&] { buffer.read_color(target); });
     ASSERT_TRUE(error);
-    for (const std::string& words : bad.says) EXPECT_THAT(*error, HasSubstr(words));
+    for (const std::string& words : bad.substrings) EXPECT_THAT(*error, HasSubstr(words));
     EXPECT_THAT(image.bytes, Each(7));
   }
 }
 
-TEST(ErrorsOfImages, ASingleRowNeedsNoStride) {
+TEST(ErrorsOfImages, SingleRowNeedsNoStride) {
   FrameBuffer buffer({.width = 5, .height = 1});
   Image image(buffer);
   ImageTarget target = image.target();
@@ -103,7 +105,7 @@ TEST(ErrorsOfReading, NameSpansOfTheWrongSize) {
               AllOf(HasSubstr("0"), HasSubstr("200")));
 }
 
-TEST(ErrorsOfReading, NameBuffersAndPlanesThatDoNotExist) {
+TEST(ErrorsOfReading, NameMissingBuffersAndPlanes) {
   const FrameBuffer buffer(
       {.width = 20, .height = 10, .color_bits = 15, .depth = DepthFormat::none, .stencil_bits = 0});
   std::vector<std::uint32_t> words(200);

@@ -1,4 +1,4 @@
-// Matrices and projections against the same formulas in long double.
+// Matrices and projections, compared with the same formulas in long double.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 using Real = long double;
-using Exact = std::array<Real, 16>;  // in rows
+using Exact = std::array<Real, 16>;  // row by row
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Real kPi = 3.14159265358979323846264338327950288L;
@@ -27,7 +27,10 @@ void expect_close(const Matrix& matrix, const Exact& exact, Real tolerance = 1e-
 }
 
 struct Point {
-  Real x, y, z, w;
+  Real x;
+  Real y;
+  Real z;
+  Real w;
 };
 Point apply(const Matrix& m, Real x, Real y, Real z, Real w = 1) {
   const auto row = [&](std::size_t r) {
@@ -40,7 +43,7 @@ Real depth_at(const Matrix& projection, Real distance) {
   return p.z / p.w;
 }
 
-TEST(Matrices, RotateIsTheFormulaOfThePage) {
+TEST(ApiMatrices, RotateMatchesTheFormula) {
   const double axes[][3] = {{1, 0, 0},    {0, 1, 0},  {0, 0, 1},          {1, 1, 1},
                             {-2, 0.5, 3}, {0, 0, -7}, {1e-3, 2e-3, -1e-3}};
   for (const auto& axis : axes)
@@ -49,9 +52,13 @@ TEST(Matrices, RotateIsTheFormulaOfThePage) {
       SCOPED_TRACE(testing::Message() << degrees << " about " << axis[0] << ' ' << axis[1] << ' ' << axis[2]);
       const Real length =
           std::sqrt(Real{axis[0]} * axis[0] + Real{axis[1]} * axis[1] + Real{axis[2]} * axis[2]);
-      const Real x = axis[0] / length, y = axis[1] / length, z = axis[2] / length,
-                 angle = std::fmod(Real{degrees}, 360.0L) * kPi / 180;
-      const Real s = std::sin(angle), c = std::cos(angle), t = 1 - c;
+      const Real x = axis[0] / length;
+      const Real y = axis[1] / length;
+      const Real z = axis[2] / length;
+      const Real angle = std::fmod(Real{degrees}, 360.0L) * kPi / 180;
+      const Real s = std::sin(angle);
+      const Real c = std::cos(angle);
+      const Real t = 1 - c;
       expect_close(rotate(degrees, axis[0], axis[1], axis[2]),
                    {x * x * t + c, x * y * t - z * s, x * z * t + y * s, 0,  //
                     y * x * t + z * s, y * y * t + c, y * z * t - x * s, 0,  //
@@ -60,14 +67,14 @@ TEST(Matrices, RotateIsTheFormulaOfThePage) {
     }
 }
 
-TEST(Matrices, QuarterTurnsAreExact) {
+TEST(ApiMatrices, QuarterTurnsAreExact) {
   EXPECT_EQ(rotate(90, 0, 0, 1).m, (std::array<double, 16>{0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
   EXPECT_EQ(rotate(-90, 1, 0, 0).m,
             (std::array<double, 16>{1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1}));
   EXPECT_EQ(rotate(360, 1, 2, 3).m, Matrix{}.m);
 }
 
-TEST(Matrices, AreRowsAndApplyFromTheRight) {
+TEST(ApiMatrices, StoreRowsAndApplyFromTheRight) {
   EXPECT_EQ(translate(1, 2, 3).m, (std::array<double, 16>{1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1}));
   EXPECT_EQ(scale(2, 3, 4).m, (std::array<double, 16>{2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 0, 0, 0, 1}));
   EXPECT_EQ((translate(1, 2, 3) * scale(2, 3, 4)).m,
@@ -84,13 +91,15 @@ TEST(Matrices, AreRowsAndApplyFromTheRight) {
   expect_close(a * b, product);
 }
 
-TEST(Matrices, LookAtCarriesTheEyeToTheOriginAndTheTargetOntoTheAxis) {
+TEST(ApiMatrices, LookAtMapsTheEyeToTheOriginAndTheTargetToTheAxis) {
   Random random(7);
   for (int i = 0; i < 200; ++i) {
     const auto any = [&] {
       return Vec3{random.between(-9, 9), random.between(-9, 9), random.between(-9, 9)};
     };
-    const Vec3 eye = any(), target = any(), up = any();
+    const Vec3 eye = any();
+    const Vec3 target = any();
+    const Vec3 up = any();
     using V = std::array<Real, 3>;
     const auto cross = [](const V& a, const V& b) {
       return V{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -101,8 +110,9 @@ TEST(Matrices, LookAtCarriesTheEyeToTheOriginAndTheTargetOntoTheAxis) {
       return V{a[0] / length, a[1] / length, a[2] / length};
     };
     const V e{eye.x, eye.y, eye.z};
-    const V forward = unit({target.x - e[0], target.y - e[1], target.z - e[2]}),
-            side = unit(cross(forward, {up.x, up.y, up.z})), top = cross(side, forward);
+    const V forward = unit({target.x - e[0], target.y - e[1], target.z - e[2]});
+    const V side = unit(cross(forward, {up.x, up.y, up.z}));
+    const V top = cross(side, forward);
     const Matrix view = look_at(eye, target, up);
     expect_close(view,
                  {side[0], side[1], side[2], -dot(side, e), top[0], top[1], top[2], -dot(top, e), -forward[0],
@@ -114,9 +124,14 @@ TEST(Matrices, LookAtCarriesTheEyeToTheOriginAndTheTargetOntoTheAxis) {
   }
 }
 
-TEST(Matrices, FrustumIsTheFormulaOfThePage) {
+TEST(ApiMatrices, FrustumMatchesTheFormula) {
   for (const double far : {2.0, 100.0, 1e9}) {
-    const Real l = -0.3, r = 0.7, b = -0.2, t = 0.9, n = 0.5, f = far;
+    const Real l = -0.3;
+    const Real r = 0.7;
+    const Real b = -0.2;
+    const Real t = 0.9;
+    const Real n = 0.5;
+    const Real f = far;
     expect_close(frustum(-0.3, 0.7, -0.2, 0.9, 0.5, far),
                  {2 * n / (r - l), 0, (r + l) / (r - l), 0,  //
                   0, 2 * n / (t - b), (t + b) / (t - b), 0,  //
@@ -128,23 +143,25 @@ TEST(Matrices, FrustumIsTheFormulaOfThePage) {
   }
 }
 
-TEST(Matrices, PerspectiveIsTheSymmetricFrustum) {
+TEST(ApiMatrices, PerspectiveIsASymmetricFrustum) {
   for (const double fovy : {1e-3, 10.0, 45.0, 60.0, 90.0, 150.0, 179.9})
     for (const double aspect : {0.1, 1.0, 16.0 / 9})
       for (const bool reversed : {false, true}) {
         SCOPED_TRACE(fovy);
-        const Real n = 0.25, f = 80, cotangent = 1 / std::tan(Real{fovy} * kPi / 360);
-        const Real z = reversed ? n / (f - n) : -(f + n) / (f - n),
-                   w = reversed ? f * n / (f - n) : -2 * f * n / (f - n);
+        const Real n = 0.25;
+        const Real f = 80;
+        const Real cotangent = 1 / std::tan(Real{fovy} * kPi / 360);
+        const Real z = reversed ? n / (f - n) : -(f + n) / (f - n);
+        const Real w = reversed ? f * n / (f - n) : -2 * f * n / (f - n);
         expect_close(perspective(fovy, aspect, 0.25, 80, reversed),
                      {cotangent / aspect, 0, 0, 0, 0, cotangent, 0, 0, 0, 0, z, w, 0, 0, -1, 0});
       }
 }
 
-TEST(Matrices, AnInfiniteFarPlaneIsTheLimit) {
+TEST(ApiMatrices, InfiniteFarPlaneIsTheLimit) {
   for (const bool reversed : {false, true}) {
-    const Matrix limit = perspective(50, 1.5, 0.5, kInfinity, reversed),
-                 near_limit = perspective(50, 1.5, 0.5, 1e15, reversed);
+    const Matrix limit = perspective(50, 1.5, 0.5, kInfinity, reversed);
+    const Matrix near_limit = perspective(50, 1.5, 0.5, 1e15, reversed);
     Exact exact;
     std::copy(near_limit.m.begin(), near_limit.m.end(), exact.begin());
     expect_close(limit, exact, 2e-15L);
@@ -153,7 +170,7 @@ TEST(Matrices, AnInfiniteFarPlaneIsTheLimit) {
   }
 }
 
-TEST(Matrices, ReversedProjectionsRunFromOneToZero) {
+TEST(ApiMatrices, ReversedProjectionsRunFromOneToZero) {
   for (const Matrix& m : {perspective(40, 1, 0.5, 20, true), frustum(-1, 2, -1, 1, 0.5, 20, true),
                           orthographic(-1, 2, -1, 1, 0.5, 20, true)}) {
     EXPECT_NEAR(static_cast<double>(depth_at(m, 0.5)), 1, 1e-14);
@@ -166,9 +183,14 @@ TEST(Matrices, ReversedProjectionsRunFromOneToZero) {
   }
 }
 
-TEST(Matrices, OrthographicIsTheFormulaOfThePage) {
-  const Real l = -3, r = 5, b = 2, t = -7, n = -10,
-             f = 30;  // upside down is allowed, and so is a near plane behind the eye
+TEST(ApiMatrices, OrthographicMatchesTheFormula) {
+  // A flipped volume and a near plane behind the eye are allowed.
+  const Real l = -3;
+  const Real r = 5;
+  const Real b = 2;
+  const Real t = -7;
+  const Real n = -10;
+  const Real f = 30;
   expect_close(orthographic(-3, 5, 2, -7, -10, 30),
                {2 / (r - l), 0, 0, -(r + l) / (r - l), 0, 2 / (t - b), 0, -(t + b) / (t - b), 0, 0,
                 -2 / (f - n), -(f + n) / (f - n), 0, 0, 0, 1});
@@ -177,15 +199,15 @@ TEST(Matrices, OrthographicIsTheFormulaOfThePage) {
                 1 / (f - n), f / (f - n), 0, 0, 0, 1});
 }
 
-TEST(Matrices, ALongOrShortAxisOrUpHasADirectionToo) {
+TEST(ApiMatrices, ExtremeAxisAndUpLengthsStillHaveADirection) {
   for (const double length : {1e-200, 1e200}) {
     EXPECT_EQ(rotate(30, 0, 0, length).m, rotate(30, 0, 0, 1).m);
     EXPECT_EQ(look_at({0, 0, 5}, {0, 0, 0}, {0, length, 0}).m, look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}).m);
   }
 }
 
-// The depth that a camera gives a plane in front of it, through a whole frame.
-TEST(Cameras, GivePlanesTheDepthOfTheirDistance) {
+// Depth of a plane in front of a camera, through a whole frame.
+TEST(Cameras, MapDistanceToDepth) {
   const MeshData mesh = rectangle(-900, -900, 900, 900);
   for (const bool reversed : {false, true})
     for (const double far : {50.0, kInfinity})

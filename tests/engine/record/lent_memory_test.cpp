@@ -1,4 +1,4 @@
-// Frame buffers in memory that the caller owns.
+// Frame buffers in memory owned by the caller.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ struct Memory {
   }
 };
 
-// Bit by bit: what plane() shows, and where it stands.
+// Bit for bit: the contents and the address of plane().
 void expect_planes_in(const FrameBuffer& buffer, std::span<std::byte> memory) {
   for (const Buffer which : {Buffer::color, Buffer::depth, Buffer::stencil})
     for (int k = 0; k < buffer.plane_count(which); ++k) {
@@ -33,7 +33,7 @@ void expect_planes_in(const FrameBuffer& buffer, std::span<std::byte> memory) {
     }
 }
 
-TEST(LentMemory, HoldsTheSameBits) {
+TEST(CallerMemory, HoldsTheSameBits) {
   for (const FrameBufferFormat& format :
        {FrameBufferFormat{.width = 133, .height = 71},
         FrameBufferFormat{
@@ -47,7 +47,7 @@ TEST(LentMemory, HoldsTheSameBits) {
     Memory memory(size);
     FrameBuffer lent(format, memory.span(size));
     expect_planes_in(lent, memory.span(size));
-    EXPECT_EQ(fingerprint(own), fingerprint(lent)) << "a new one";
+    EXPECT_EQ(fingerprint(own), fingerprint(lent)) << "new buffer";
     for (FrameBuffer* buffer : {&own, &lent}) {
       Frame frame(*buffer);
       if (format.depth != DepthFormat::none) scene.record(frame);
@@ -61,7 +61,7 @@ TEST(LentMemory, HoldsTheSameBits) {
   }
 }
 
-TEST(LentMemory, ShowsClearsAtOnce) {
+TEST(CallerMemory, ClearsAreVisibleAtOnce) {
   const FrameBufferFormat format{
       .width = 16, .height = 4, .color_bits = 2, .depth = DepthFormat::none, .stencil_bits = 1};
   const std::size_t size = FrameBuffer::memory_bytes(format);
@@ -79,7 +79,7 @@ TEST(LentMemory, ShowsClearsAtOnce) {
   EXPECT_EQ(ones(), 3 * 4 * 2) << "three planes of four rows of two bytes";
 }
 
-TEST(LentMemory, IsCheckedForSizeAndAddress) {
+TEST(CallerMemory, SizeAndAddressAreChecked) {
   const FrameBufferFormat format{.width = 100, .height = 50};
   const std::size_t size = FrameBuffer::memory_bytes(format);
   Memory memory(size);

@@ -1,4 +1,4 @@
-// Vertices and indices in the caller's own layouts: the picture is that of the packed floats, bit for bit.
+// Vertices and indices in the caller's layouts: the picture equals that of packed floats, bit for bit.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using namespace test;
 constexpr FrameBufferFormat kFormat{.width = 90, .height = 70};
 constexpr std::size_t kVertices = 60;
 
-// What many programs hold: everything of a vertex together.
+// A common layout: all attributes of a vertex together.
 struct Vertex {
   std::uint16_t before;
   std::uint8_t color[4];
@@ -34,7 +34,9 @@ struct Vertex {
 
 struct Meshes {
   std::vector<Vertex> vertices;
-  std::vector<float> positions, normals, colors;
+  std::vector<float> positions;
+  std::vector<float> normals;
+  std::vector<float> colors;
   std::vector<std::uint8_t> bytes;
   std::vector<std::uint32_t> indices;
   std::vector<std::uint16_t> short_indices;
@@ -77,7 +79,7 @@ class MeshArrays : public testing::TestWithParam<DrawState> {
   }
 };
 
-TEST_P(MeshArrays, MayBeInterleaved) {
+TEST_P(MeshArrays, MatchPackedFloatsIfInterleaved) {
   Mesh mesh = m.packed();
   mesh.positions = {m.vertices[0].position, kVertices, sizeof(Vertex)};
   expect_same("positions", m.packed(), mesh);
@@ -91,7 +93,7 @@ TEST_P(MeshArrays, MayBeInterleaved) {
   expect_same("indices of 16 bits", m.packed(), mesh);
 }
 
-TEST_P(MeshArrays, MayBePackedBytesAndShortIndices) {
+TEST_P(MeshArrays, MatchPackedFloatsAsBytesAndShortIndices) {
   Mesh mesh = m.packed();
   mesh.colors = m.bytes;
   expect_same("colours", m.packed(), mesh);
@@ -101,7 +103,8 @@ TEST_P(MeshArrays, MayBePackedBytesAndShortIndices) {
   mesh.normals = {m.normals.data(), kVertices, 0};
   mesh.colors = {m.bytes.data(), kVertices, 0};
   expect_same("a stride of 0 is packed", m.packed(), mesh);
-  Mesh no_normals = m.packed(), short_no_normals = mesh;
+  Mesh no_normals = m.packed();
+  Mesh short_no_normals = mesh;
   no_normals.normals = short_no_normals.normals = {};
   short_no_normals.positions = {m.vertices[0].position, kVertices, sizeof(Vertex)};
   expect_same("without normals", no_normals, short_no_normals);
@@ -114,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
                     DrawState{.shading = Shading::phong, .color_material = ColorMaterial::diffuse},
                     DrawState{.shading = Shading::gouraud, .lighting = false}));
 
-TEST(MeshArraysErrors, NameWhatDoesNotFit) {
+TEST(MeshArraysErrors, NameTheMismatch) {
   const Meshes m;
   const float* const floats = m.positions.data();
   const struct {
@@ -201,9 +204,9 @@ TEST(MeshArraysErrors, NameWhatDoesNotFit) {
   }
 }
 
-// Few are looked through by the caller, many by all that help; the first wrong one is named, and what was
-// recorded before stays.
-TEST(MeshIndices, AreNamedWhereOutOfBounds) {
+// The caller's thread checks short index arrays, all workers check long ones; the error names the first
+// invalid index, and earlier recordings remain.
+TEST(MeshIndices, InvalidOnesAreNamed) {
   const std::vector<float> triangle{-1, -1, 0, 1, -1, 0, 0, 1, 0};
   const auto indices = [](auto first, std::size_t count, std::size_t wrong_at, auto wrong) {
     std::vector<decltype(first)> all;
@@ -241,35 +244,38 @@ TEST(MeshIndices, AreNamedWhereOutOfBounds) {
     }
 }
 
-/// Says how often it was asked, and for how many workers at most.
-struct AskedExecutor : Executor {
-  int asked = 0, most = 0;
+/// Counts its calls and keeps the largest number of tasks.
+struct CountingExecutor : Executor {
+  int calls = 0;
+  int max_count = 0;
   bool fails = false;
   int workers() const noexcept override { return 3; }
   void run(int count, void (*work)(void*, int), void* context) override {
     if (fails) throw std::runtime_error("no workers today");
-    ++asked;
-    most = std::max(most, count);
+    ++calls;
+    max_count = std::max(max_count, count);
     for (int k = 0; k < count; ++k) work(context, k);
   }
 };
 
-TEST(MeshIndices, AreLookedThroughByARenderersWorkersWhereManyAndTold) {
+TEST(MeshIndices, LongArraysAreCheckedByTheRenderersWorkers) {
   const std::vector<float> triangle{-1, -1, 0, 1, -1, 0, 0, 1, 0};
-  const std::vector<std::uint32_t> many(90'000, 1), few(300, 1);
-  const auto executor = std::make_shared<AskedExecutor>();
+  const std::vector<std::uint32_t> many(90'000, 1);
+  const std::vector<std::uint32_t> few(300, 1);
+  const auto executor = std::make_shared<CountingExecutor>();
   Renderer renderer({.executor = executor});
   FrameBuffer buffer(kFormat);
-  Frame alone(buffer), helped(buffer, renderer);
+  Frame alone(buffer);
+  Frame helped(buffer, renderer);
   alone.draw({.positions = triangle, .indices = many});
   helped.draw({.positions = triangle, .indices = few});
-  EXPECT_EQ(executor->asked, 0);
+  EXPECT_EQ(executor->calls, 0);
   Renderer moved(std::move(renderer));
   EXPECT_THAT(error_of([&] { Frame frame(buffer, renderer); }).value_or("(none)"),
               testing::HasSubstr("the renderer was moved from"));
   helped.draw({.positions = triangle, .indices = many});
-  EXPECT_EQ(executor->asked, 1);
-  EXPECT_EQ(executor->most, 3);
+  EXPECT_EQ(executor->calls, 1);
+  EXPECT_EQ(executor->max_count, 3);
   executor->fails = true;
   EXPECT_THROW(helped.draw({.positions = triangle, .indices = many}), std::runtime_error);
   EXPECT_EQ(helped.draw_count(), 2u);

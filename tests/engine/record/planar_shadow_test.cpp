@@ -1,4 +1,4 @@
-// Planar shadows: the matrix by the geometry that it stands for, and a draw's shadow against a mesh that was
+// Planar shadows: the matrix compared with its geometry, and a shadow draw compared with a mesh that was
 // flattened by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,8 @@ Point product(const Matrix& m, const Point& p) {
 }
 double dot(const Plane& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 
-// Where the line from the light through the point meets the plane: point + t * direction, solved for t.
+// Intersection of the plane with the line from the light through the point: point + t * direction, solved for
+// t.
 std::array<double, 3> cast(const Plane& plane, const Light& light, const Point& p) {
   std::array<double, 3> direction;
   for (std::size_t i = 0; i < 3; ++i)
@@ -47,19 +48,20 @@ TEST(PlanarShadow, FallsWhereTheLineFromTheLightMeetsThePlane) {
   for (int turn = 0; turn < 3000; ++turn) {
     const auto any = [&] { return random.between(-5, 5); };
     const Plane plane{any(), any(), any(), any()};
-    const float w = turn % 3 == 0 ? 0.0f : turn % 3 == 1 ? 1.0f : any();
+    const float w = turn % 3 == 2 ? any() : static_cast<float>(turn % 3);  // direction, point, scaled point
     const Light light = light_at(any(), any(), any(), w);
     const Point l{light.position[0], light.position[1], light.position[2], light.position[3]};
     if (std::abs(dot(plane, l)) < 0.1 || (w != 0 && std::abs(w) < 0.1)) continue;
     const Matrix m = planar_shadow(plane, light);
-    // A point between plane and light: on the light's side, and no farther than it.
+    // A point between plane and light: on the light's side, and no farther away than the light.
     Point p{any(), any(), any(), 1};
-    const double side = w == 0 ? dot(plane, l) : dot(plane, l) / w, distance = dot(plane, p);
+    const double side = w == 0 ? dot(plane, l) : dot(plane, l) / w;
+    const double distance = dot(plane, p);
     const double ratio = distance / side;
     const bool between = w == 0 ? ratio > 0 : ratio > 0 && ratio < 0.98;
     const Point shadow = product(m, p);
     if (between) {
-      EXPECT_GT(shadow[3], 0) << "clipping keeps it";
+      EXPECT_GT(shadow[3], 0) << "clipping keeps the shadow";
       const auto expected = cast(plane, light, p);
       for (std::size_t i = 0; i < 3; ++i)
         EXPECT_NEAR(shadow[i] / shadow[3], expected[i],
@@ -70,12 +72,12 @@ TEST(PlanarShadow, FallsWhereTheLineFromTheLightMeetsThePlane) {
     }
     const double length =
         std::abs(shadow[0]) + std::abs(shadow[1]) + std::abs(shadow[2]) + std::abs(shadow[3]);
-    EXPECT_NEAR(dot(plane, shadow) / length, 0, 1e-11) << "it lies in the plane";
+    EXPECT_NEAR(dot(plane, shadow) / length, 0, 1e-11) << "the shadow lies in the plane";
   }
 }
 
-// The same plane has many equations.
-TEST(PlanarShadow, DoesNotDependOnWhichWayTheNormalPoints) {
+// A plane has many equations.
+TEST(PlanarShadow, DoesNotDependOnTheNormalsSignOrLength) {
   const Plane plane{0.25, 1, -0.5, 0.75};
   for (const Light& light : {light_at(1, 4, 2, 1), light_at(1, 3, -2, 0), light_at(-2, -8, -4, -2)}) {
     const Matrix m = planar_shadow(plane, light);
@@ -87,9 +89,11 @@ TEST(PlanarShadow, DoesNotDependOnWhichWayTheNormalPoints) {
   }
 }
 
-// The page's matrix for a direction of travel (dx, dy, dz), which is away from the light.
-TEST(PlanarShadow, IsThePagesMatrixForADirection) {
-  const double a = 0.5, b = 2, c = -1, d = 3, dx = -1, dy = -4, dz = 0.5, weight = a * dx + b * dy + c * dz;
+// The explicit matrix for a direction of travel (dx, dy, dz), which points away from the light.
+TEST(PlanarShadow, MatchesTheFormulaForADirection) {
+  const double a = 0.5, b = 2, c = -1, d = 3;
+  const double dx = -1, dy = -4, dz = 0.5;
+  const double weight = a * dx + b * dy + c * dz;
   const double rows[16] = {b * dy + c * dz,
                            -b * dx,
                            -c * dx,
@@ -112,7 +116,7 @@ TEST(PlanarShadow, IsThePagesMatrixForADirection) {
 
 MeshData random_caster(Random& random) {
   MeshData mesh;
-  // Multiples of 1/64 with heights below 2: flattened by hand without rounding.
+  // Multiples of 1/64 with heights below 2: flattening by hand does not round.
   for (int i = 0; i < 60; ++i) {
     const auto multiple = [&](int low, int high) {
       return static_cast<float>(low + below(random, high - low)) / 64;
@@ -125,14 +129,14 @@ MeshData random_caster(Random& random) {
   return mesh;
 }
 
-TEST(PlanarShadow, IsDrawnAsTheMeshFlattenedByHandInOneColor) {
+TEST(PlanarShadow, EqualsTheFlattenedMeshInOneColor) {
   const std::uint8_t texel[4] = {200, 90, 30, 60};
   const Texture texture({.pixels = texel, .width = 1, .height = 1}, {.min = TextureFilter::linear});
   for (const FrameBufferFormat& format : operation_formats())
     for (int turn = 0; turn < 24; ++turn) {
       Random random(900 + static_cast<std::uint64_t>(turn));
       const MeshData caster = random_caster(random);
-      // Onto y = 0: straight down, or aslant by half the height, on the second of three lights.
+      // Onto y = 0: straight down, or at a slant of half the height, from the second of three lights.
       const float slant = turn % 2 == 0 ? 0.0f : 0.5f;
       const std::vector<Light> lights{light_at(1, 0, 0, 0), light_at(-2 * slant, 2, 0, 0),
                                       light_at(0, 0, 1, 0)};
@@ -155,7 +159,8 @@ TEST(PlanarShadow, IsDrawnAsTheMeshFlattenedByHandInOneColor) {
       shadow.texture = &texture;
       state.lighting = false;
       state.material.diffuse = color;
-      FrameBuffer by_shadow(format), by_hand(format);
+      FrameBuffer by_shadow(format);
+      FrameBuffer by_hand(format);
       const auto draw = [&](FrameBuffer& buffer, const MeshData& mesh, const DrawState& how) {
         Frame frame(buffer);
         draw_background(frame, format);
@@ -173,7 +178,7 @@ TEST(PlanarShadow, IsDrawnAsTheMeshFlattenedByHandInOneColor) {
 }
 
 // A square at half the light's height has a shadow twice as large.
-TEST(PlanarShadow, OfAPointLightGrowsWithItsDistance) {
+TEST(PlanarShadow, GrowsWithTheDistanceFromAPointLight) {
   FrameBuffer buffer({.width = 64, .height = 64});
   Frame frame(buffer);
   frame.clear({.color = Color{1, 1, 1, 1}, .depth = 1.0});
@@ -192,10 +197,11 @@ TEST(PlanarShadow, OfAPointLightGrowsWithItsDistance) {
           << x << ' ' << y;
 }
 
-// The object's transform comes first, then the shadow in world space.
+// The object's transform applies first, then the shadow in world space.
 TEST(PlanarShadow, FollowsTheObjectsTransform) {
   FrameBuffer a({.width = 64, .height = 64}), b({.width = 64, .height = 64});
-  const MeshData square = rectangle(-0.5f, -0.5f, 0.5f, 0.5f), moved = rectangle(0.5f, 0, 1.5f, 1, 1);
+  const MeshData square = rectangle(-0.5f, -0.5f, 0.5f, 0.5f);
+  const MeshData moved = rectangle(0.5f, 0, 1.5f, 1, 1);
   for (const bool transformed : {true, false}) {
     FrameBuffer& buffer = transformed ? a : b;
     Frame frame(buffer);
@@ -212,11 +218,11 @@ TEST(PlanarShadow, FollowsTheObjectsTransform) {
   EXPECT_THAT(packed_colors(a), testing::Contains(0xff0000u));
 }
 
-TEST(PlanarShadow, IsRefusedWhereThereIsNone) {
+TEST(PlanarShadow, DegenerateShadowsAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const MeshData square = rectangle(-1, -1, 1, 1);
   FrameBuffer buffer({.width = 8, .height = 8});
-  const auto of = [&](const std::vector<Light>& lights, const ShadowOn& shadow) {
+  const auto error_with = [&](const std::vector<Light>& lights, const ShadowOn& shadow) {
     Frame frame(buffer);
     frame.set_lights(lights);
     const auto message = error_of([&] { frame.draw(square.view(), {.shadow_on = shadow}); });
@@ -224,32 +230,34 @@ TEST(PlanarShadow, IsRefusedWhereThereIsNone) {
     return message.value_or("(no error)");
   };
   const std::vector<Light> two{light_at(0, 1, 0, 0), light_at(1, 2, 3, 1)};
-  EXPECT_EQ(of(two, {.plane = {0, 1, 0, 0}}), "(no error)");
-  EXPECT_THAT(of(two, {.plane = {0, 0, 0, 5}}),
+  EXPECT_EQ(error_with(two, {.plane = {0, 1, 0, 0}}), "(no error)");
+  EXPECT_THAT(error_with(two, {.plane = {0, 0, 0, 5}}),
               HasSubstr("Frame::draw: shadow_on: the plane is 0 0 0 5, its normal must not be 0 0 0"));
-  EXPECT_THAT(of(two, {.plane = {0, nan, 0, 5}}),
+  EXPECT_THAT(error_with(two, {.plane = {0, nan, 0, 5}}),
               HasSubstr("Frame::draw: shadow_on's plane holds nan, must be finite"));
-  EXPECT_THAT(of(two, {.plane = {0, 1, 0, 0}, .light = 2}),
+  EXPECT_THAT(error_with(two, {.plane = {0, 1, 0, 0}, .light = 2}),
               HasSubstr("Frame::draw: shadow_on.light is 2, the frame has 2 lights, counted from 0"));
-  EXPECT_THAT(of({}, {.plane = {0, 1, 0, 0}}), HasSubstr("shadow_on.light is 0, the frame has 0 lights"));
+  EXPECT_THAT(error_with({}, {.plane = {0, 1, 0, 0}}),
+              HasSubstr("shadow_on.light is 0, the frame has 0 lights"));
   EXPECT_THAT(
-      of(two, {.plane = {1, 0, 0, 2}}),
+      error_with(two, {.plane = {1, 0, 0, 2}}),
       HasSubstr("Frame::draw: shadow_on: the light's direction 0 1 0 is parallel to the plane 1 0 0 2"));
-  EXPECT_THAT(of(two, {.plane = {0, 0, 2, -6}, .light = 1}),
+  EXPECT_THAT(error_with(two, {.plane = {0, 0, 2, -6}, .light = 1}),
               HasSubstr("Frame::draw: shadow_on: the light at 1 2 3 lies in the plane 0 0 2 -6"));
-  EXPECT_THAT(of(two, {.plane = {0, 1, 0, 0}, .color = {0, 0, static_cast<float>(nan), 1}}),
+  EXPECT_THAT(error_with(two, {.plane = {0, 1, 0, 0}, .color = {0, 0, static_cast<float>(nan), 1}}),
               HasSubstr("shadow_on.color holds nan"));
-  // Next to it by rounding alone, and next to it by more.
-  EXPECT_THAT(
-      of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -(double{0.1f} + 0.2f + 0.3f) - 1e-14}}),
-      HasSubstr("lies in the plane"));
-  EXPECT_THAT(of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -0.6}}),
+  // At the limit of rounding, and beyond it.
+  EXPECT_THAT(error_with({light_at(0.1f, 0.2f, 0.3f, 1)},
+                         {.plane = {1, 1, 1, -(double{0.1f} + 0.2f + 0.3f) - 1e-14}}),
               HasSubstr("lies in the plane"));
-  EXPECT_THAT(of({light_at(0.6f, 0.8f, 0, 0)}, {.plane = {0.8, -0.6, 0, 0}}), HasSubstr("parallel"));
-  EXPECT_EQ(of({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -(double{0.1f} + 0.2f + 0.3f) - 1e-5}}),
-            "(no error)");
-  EXPECT_THAT(of({light_at(1, 0, 0, 0)}, {.plane = {1e-300, 0, 0, 1e10}}), HasSubstr("too far away"));
-  EXPECT_THAT(of({light_at(0, 0, 0, 0)}, {.plane = {0, 1, 0, 0}}), HasSubstr("parallel"));
+  EXPECT_THAT(error_with({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -0.6}}),
+              HasSubstr("lies in the plane"));
+  EXPECT_THAT(error_with({light_at(0.6f, 0.8f, 0, 0)}, {.plane = {0.8, -0.6, 0, 0}}), HasSubstr("parallel"));
+  EXPECT_EQ(
+      error_with({light_at(0.1f, 0.2f, 0.3f, 1)}, {.plane = {1, 1, 1, -(double{0.1f} + 0.2f + 0.3f) - 1e-5}}),
+      "(no error)");
+  EXPECT_THAT(error_with({light_at(1, 0, 0, 0)}, {.plane = {1e-300, 0, 0, 1e10}}), HasSubstr("too far away"));
+  EXPECT_THAT(error_with({light_at(0, 0, 0, 0)}, {.plane = {0, 1, 0, 0}}), HasSubstr("parallel"));
   EXPECT_THAT(error_of([&] {
                 planar_shadow({0, 0, 0, 0}, Light{});
               }).value_or(""),
@@ -259,7 +267,8 @@ TEST(PlanarShadow, IsRefusedWhereThereIsNone) {
                 planar_shadow({0, 0, 1, 0}, nowhere);
               }).value_or(""),
               HasSubstr("planar_shadow's light's position holds nan"));
-  const double huge = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
+  const double huge = std::numeric_limits<double>::max();
+  const double tiny = std::numeric_limits<double>::denorm_min();
   EXPECT_FALSE(error_of([&] { planar_shadow({0, 0, huge, -huge}, light_at(0, 0, 3e38f, 1)); }));
   EXPECT_FALSE(error_of([&] { planar_shadow({0, tiny, 0, 0}, light_at(0, 1, 0, 0)); }));
 }

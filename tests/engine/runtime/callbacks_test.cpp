@@ -1,4 +1,4 @@
-// Progress, cancelling, exceptions of the caller's own, and what the library has to say.
+// Progress, cancellation, exceptions of the caller, and log messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ Fingerprint finished(Renderer& renderer, FrameBuffer& buffer) {
   return fingerprint(buffer);
 }
 
-TEST(Progress, RisesToOneAndIsNeverCalledByTwoAtOnce) {
+TEST(Progress, RisesToOneAndIsNeverCalledConcurrently) {
   for (const int threads : {1, 2}) {
     std::vector<double> calls;
     std::atomic<int> inside = 0;
@@ -60,27 +60,27 @@ TEST(Progress, RisesToOneAndIsNeverCalledByTwoAtOnce) {
   }
 }
 
-// From the callback's thread and from another one, neither of which waits for workers that wait for the
-// callback.
-TEST(Progress, MayRecordTheNextFrameWithTheSameRenderersHelp) {
+// From the callback's thread and from another one: neither may wait for workers that wait for the callback.
+TEST(Progress, CallbackMayRecordTheNextFrameWithTheSameRenderer) {
   const std::vector<float> triangle{-1, -1, 0, 1, -1, 0, 0, 1, 0};
   std::vector<std::uint32_t> many(90'000);
   for (std::size_t i = 0; i < many.size(); ++i) many[i] = static_cast<std::uint32_t>(i % 3);
-  many.back() = 3;  // beyond the vertices: somebody has looked at all of them
+  many.back() = 3;  // out of range: found only if all indices are checked
   Renderer plain({.threads = 1});
   FrameBuffer fresh(scene().format);
   const Fingerprint expected = finished(plain, fresh);
-  for (const int threads : {1, 2, 8, 0}) {  // 0: three of somebody else's
+  for (const int threads : {1, 2, 8, 0}) {  // 0: three workers of an executor
     const ThreadLimit limit(std::max(1, threads));
     Renderer* helper = nullptr;
-    int drawn = 0, told = 0;
+    int drawn = 0;
+    int refused = 0;
     const std::shared_ptr<Executor> executor =
         threads == 0 ? std::make_shared<ThreadPerCallExecutor>(3) : nullptr;
     Renderer renderer({.threads = threads, .tile_size = 32, .executor = executor, .progress = [&](double) {
                          const auto draw = [&] {
                            FrameBuffer next_buffer({.width = 8, .height = 8});
                            Frame next(next_buffer, *helper);
-                           told +=
+                           refused +=
                                error_of([&] { next.draw({.positions = triangle, .indices = many}); }) ? 1 : 0;
                          };
                          if (++drawn % 2 == 0) draw();
@@ -93,14 +93,14 @@ TEST(Progress, MayRecordTheNextFrameWithTheSameRenderersHelp) {
       EXPECT_EQ(finished(renderer, buffer), expected);
     }
     EXPECT_GE(drawn, 20);
-    EXPECT_EQ(told, drawn);
+    EXPECT_EQ(refused, drawn);
   }
 }
 
-/// Notes how deep its calls are within each other.
-class Depth : public SingleThreadExecutor {
+/// Records how deeply its calls nest.
+class NestingExecutor : public SingleThreadExecutor {
  public:
-  Depth() : SingleThreadExecutor(3) {}
+  NestingExecutor() : SingleThreadExecutor(3) {}
   void run(int count, void (*work)(void*, int), void* context) override {
     deepest = std::max(deepest, ++depth_);
     SingleThreadExecutor::run(count, work, context);
@@ -112,9 +112,9 @@ class Depth : public SingleThreadExecutor {
   int depth_ = 0;
 };
 
-/// One thread, which does whatever work there is while it waits: also that of a call that it is in the midst
-/// of.
-class Helping : public Executor {
+/// A single thread that runs any pending job while it waits, including jobs of a call that it is already
+/// inside.
+class SingleThreadQueue : public Executor {
  public:
   int workers() const noexcept override { return 3; }
   void run(int count, void (*work)(void*, int), void* context) override {
@@ -135,8 +135,8 @@ class Helping : public Executor {
   std::deque<std::function<void()>> jobs_;
 };
 
-/// A frame in the midst of whose work another renderer of its executor finishes frames, and what they have to
-/// be.
+/// Finishes frames of another renderer with the same executor in the middle of a frame, and checks both
+/// results.
 void expect_frames_within_a_frame(const std::shared_ptr<Executor>& executor) {
   Renderer plain({.threads = 1});
   FrameBuffer fresh(scene().format);
@@ -155,19 +155,19 @@ void expect_frames_within_a_frame(const std::shared_ptr<Executor>& executor) {
   EXPECT_GE(calls, 3);
 }
 
-TEST(Progress, MayUseAnotherRendererOfTheSameExecutor) {
-  const auto depth = std::make_shared<Depth>();
+TEST(Progress, CallbackMayUseAnotherRendererOfTheSameExecutor) {
+  const auto depth = std::make_shared<NestingExecutor>();
   Renderer alone({.executor = depth});
   FrameBuffer buffer(scene().format);
   finished(alone, buffer);
   EXPECT_EQ(depth->deepest, 1);
   expect_frames_within_a_frame(depth);
-  EXPECT_EQ(depth->deepest, 2) << "the executor hears of the frames within the frame";
+  EXPECT_EQ(depth->deepest, 2) << "the executor runs the nested frames";
   expect_frames_within_a_frame(std::make_shared<ThreadPerCallExecutor>(3));
-  expect_frames_within_a_frame(std::make_shared<Helping>());
+  expect_frames_within_a_frame(std::make_shared<SingleThreadQueue>());
 }
 
-TEST(Progress, MustNotFinishFramesOfItsRenderer) {
+TEST(Progress, CallbackMustNotFinishFramesOfItsRenderer) {
   Renderer plain({.threads = 1});
   FrameBuffer buffer(scene().format);
   const Fingerprint expected = finished(plain, buffer);
@@ -189,11 +189,11 @@ TEST(Progress, MustNotFinishFramesOfItsRenderer) {
     EXPECT_THAT(errors, testing::Each(testing::HasSubstr("called by this renderer's own progress callback")));
     plain.finish(next);
     EXPECT_THAT(packed_colors(next_buffer), testing::AllOf(testing::SizeIs(64), testing::Each(0x0000ffu)))
-        << "nothing of it is lost";
+        << "the frame is still recorded";
   }
 }
 
-// Ends a frame at every call of the callback in turn, then finishes it.
+// Cancels a frame at the given call of the callback, for each call in turn, then finishes it.
 template <class End>
 void end_at_every_call(const End& expect_end) {
   Renderer plain({.threads = 1});
@@ -218,14 +218,14 @@ void end_at_every_call(const End& expect_end) {
     if (!ended) break;
     armed = false;
     EXPECT_EQ(frame.draw_count(), draws) << "still recorded";
-    packed_colors(buffer);  // readable
+    packed_colors(buffer);  // does not throw
     renderer.finish(frame);
     EXPECT_EQ(fingerprint(buffer), expected) << "after call " << at;
     EXPECT_EQ(frame.draw_count(), 0u);
   }
 }
 
-TEST(Progress, MayCancelAtAnyCallAndTheFrameMayBeFinishedAfterAll) {
+TEST(Progress, CancelledFrameCanBeFinishedLater) {
   int cancelled = 0;
   end_at_every_call([&](Renderer& renderer, Frame& frame) {
     try {
@@ -240,8 +240,8 @@ TEST(Progress, MayCancelAtAnyCallAndTheFrameMayBeFinishedAfterAll) {
   EXPECT_GE(cancelled, 2);
 }
 
-// Wherever the threads happen to be.
-TEST(Progress, MayCancelWhileTwoThreadsWork) {
+// Cancels at arbitrary points of both threads.
+TEST(Progress, CanCancelWhileTwoThreadsWork) {
   Renderer plain({.threads = 1});
   FrameBuffer fresh(scene().format);
   const Fingerprint expected = finished(plain, fresh);
@@ -256,7 +256,8 @@ TEST(Progress, MayCancelWhileTwoThreadsWork) {
     void* at = memory.data();
     std::size_t space = memory.size();
     std::align(64, size, at, space);
-    FrameBuffer own(scene().format), lent(scene().format, {static_cast<std::byte*>(at), size});
+    FrameBuffer own(scene().format);
+    FrameBuffer lent(scene().format, {static_cast<std::byte*>(at), size});
     for (FrameBuffer* buffer : {&own, &lent}) {
       armed = true;
       Frame frame(*buffer);
@@ -265,7 +266,7 @@ TEST(Progress, MayCancelWhileTwoThreadsWork) {
         renderer.finish(frame);
       } catch (const Cancelled&) {
         ++cancelled;
-        packed_colors(*buffer);  // readable
+        packed_colors(*buffer);  // does not throw
       }
       armed = false;
       if (frame.draw_count() == 0) scene().record(frame);
@@ -273,10 +274,10 @@ TEST(Progress, MayCancelWhileTwoThreadsWork) {
       EXPECT_EQ(fingerprint(*buffer), expected) << "round " << round;
     }
   }
-  EXPECT_EQ(cancelled, 40) << "the last call says 1";
+  EXPECT_EQ(cancelled, 40) << "the last call reports 1";
 }
 
-TEST(Progress, AnExceptionOfTheCallersComesBackToTheCaller) {
+TEST(Progress, CallersExceptionReachesTheCaller) {
   struct OwnError {
     int number;
   };
@@ -303,9 +304,9 @@ TEST(Progress, AnExceptionOfTheCallersComesBackToTheCaller) {
   }
 }
 
-TEST(Progress, ACancelledFrameLeavesOldAndNewTilesButNoRubbish) {
-  // The frame before is one colour, the cancelled one another: nothing else may be seen. Tiles take their
-  // time, so that the callback is heard between two of them.
+TEST(Progress, CancelledFrameHoldsOnlyOldAndNewTiles) {
+  // The previous frame has one colour, the cancelled one another; no third colour may appear. Tiles are slow
+  // enough for a progress call between two of them.
   int call = 0;
   bool armed = false;
   class Slow : public Executor {
@@ -318,7 +319,7 @@ TEST(Progress, ACancelledFrameLeavesOldAndNewTilesButNoRubbish) {
   Renderer renderer({.tile_size = 32, .executor = std::make_shared<Slow>(), .progress = [&](double done) {
                        if (armed)
                          std::this_thread::sleep_for(
-                             std::chrono::milliseconds(15));  // longer than the pause between two calls
+                             std::chrono::milliseconds(15));  // longer than the interval between two calls
                        return !armed || done < 0.5 || call++ < 3;
                      }});
   FrameBuffer buffer({.width = 300, .height = 200});
@@ -344,7 +345,7 @@ TEST(Progress, ACancelledFrameLeavesOldAndNewTilesButNoRubbish) {
   EXPECT_GT(after, 0u);
 }
 
-TEST(Log, SaysWhatRunsAndWarnsOfDroppedTriangles) {
+TEST(Log, NamesTheKernelsAndWarnsOfDroppedTriangles) {
   std::vector<std::pair<LogLevel, std::string>> lines;
   Renderer renderer(
       {.threads = 1, .log = [&](LogLevel level, std::string_view text) { lines.emplace_back(level, text); }});

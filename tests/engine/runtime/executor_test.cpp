@@ -1,4 +1,4 @@
-// Whoever runs the work, the picture is the same.
+// The picture does not depend on the executor.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,10 +28,10 @@ class Throwing : public Executor {
   void run(int, void (*)(void*, int), void*) override { throw std::length_error("no threads today"); }
 };
 
-/// Also wakes a worker that nobody asked for.
-class Waking : public Executor {
+/// Also runs a worker index that was not requested.
+class StrayWorker : public Executor {
  public:
-  explicit Waking(int stray) : stray_(stray) {}
+  explicit StrayWorker(int stray) : stray_(stray) {}
   int workers() const noexcept override { return 4; }
   void run(int count, void (*work)(void*, int), void* context) override {
     work(context, stray_);
@@ -42,7 +42,7 @@ class Waking : public Executor {
   int stray_;
 };
 
-class Nobody : public Executor {
+class NoWorkers : public Executor {
  public:
   int workers() const noexcept override { return 0; }
   void run(int, void (*)(void*, int), void*) override {}
@@ -68,10 +68,13 @@ TEST(Executors, GiveTheSameBits) {
 }
 
 /// Small triangles on the left, then clipped ones everywhere, then small lines and points on the right, then
-/// a triangle everywhere: of many batches most tiles find something in some that do not follow each other.
+/// a triangle everywhere. Most tiles therefore find entries in a non-contiguous subset of many batches.
 struct ManyBatches {
   static constexpr int kSmall = 30000;
-  std::vector<float> triangles, lines, points, colors;
+  std::vector<float> triangles;
+  std::vector<float> lines;
+  std::vector<float> points;
+  std::vector<float> colors;
   ManyBatches() {
     Random random(11);
     for (int i = 0; i < kSmall; ++i) {
@@ -87,8 +90,7 @@ struct ManyBatches {
     for (int k = 0; k < corners; ++k)
       positions.insert(positions.end(), {x + kOffset[k][0], y + kOffset[k][1], z});
   }
-  /// Of a frame, a smaller one of half of it, and the first one again, one renderer's: nothing of one is left
-  /// in the next.
+  /// One renderer draws a frame, a smaller one of half of it, and the first one again: no state carries over.
   ///
   /// @param binned  batches of the last frame's first binning pass
   std::vector<Fingerprint> drawn(RendererOptions options, std::size_t& binned) const {
@@ -113,11 +115,11 @@ struct ManyBatches {
   }
 
  private:
-  /// One of `share` parts of each mesh.
+  /// Part `i` of `share` parts of each mesh.
   void record(Frame& frame, std::size_t share) const {
     static constexpr float kClipped[] = {-3, -2, -4,   3, -2, 0.9f, 0, 5,  0.2f,
-                                         -2, 3,  0.1f, 2, 3,  3,    0, -4, 0.3f},
-                           kWide[] = {-0.9f, -0.8f, 0.2f, 0.9f, -0.7f, -0.4f, 0.1f, 0.95f, 0.1f};
+                                         -2, 3,  0.1f, 2, 3,  3,    0, -4, 0.3f};
+    static constexpr float kWide[] = {-0.9f, -0.8f, 0.2f, 0.9f, -0.7f, -0.4f, 0.1f, 0.95f, 0.1f};
     const auto draw = [&](Primitive primitive, std::span<const float> positions) {
       frame.draw({.primitive = primitive,
                   .positions = positions,
@@ -136,7 +138,7 @@ struct ManyBatches {
   }
 };
 
-TEST(Executors, OfManyWorkersGiveTheSameBits) {
+TEST(Executors, ManyWorkersGiveTheSameBits) {
   const ManyBatches scene;
   std::size_t batches = 0;
   const std::vector<Fingerprint> expected = scene.drawn({.threads = 1, .tile_size = 32}, batches);
@@ -158,17 +160,17 @@ TEST(Executors, NumberOfWorkersIsTheNumberOfThreads) {
       Renderer({.threads = 9, .executor = std::make_shared<ThreadPerCallExecutor>(3)}).options().threads, 3);
 }
 
-TEST(Executors, ThatDoNotDoTheirWorkAreNamed) {
+TEST(Executors, FaultyExecutorsAreNamed) {
   EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<Idle>()}); }).value_or(""),
               testing::HasSubstr("executor returned before its work was done"));
-  EXPECT_THAT(error_of([] { Renderer({.executor = std::make_shared<Nobody>()}); }).value_or(""),
+  EXPECT_THAT(error_of([] { Renderer({.executor = std::make_shared<NoWorkers>()}); }).value_or(""),
               testing::HasSubstr("0 workers"));
-  EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<Waking>(4)}); }).value_or(""),
+  EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<StrayWorker>(4)}); }).value_or(""),
               testing::HasSubstr("executor called work for worker 4, run() must call it for 0 .. "));
-  EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<Waking>(-1)}); }).value_or(""),
+  EXPECT_THAT(error_of([] { drawn({.executor = std::make_shared<StrayWorker>(-1)}); }).value_or(""),
               testing::HasSubstr("executor called work for worker -1, run() must call it for 0 .. "));
   EXPECT_THROW(drawn({.executor = std::make_shared<Throwing>()}), std::length_error)
-      << "its own exceptions pass through";
+      << "its exceptions pass through";
 }
 
 }  // namespace

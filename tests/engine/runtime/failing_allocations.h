@@ -1,5 +1,5 @@
-// Allocations that fail one after the other: the first, the second, each one there is; and how many bytes are
-// allocated. The operators that count them stand in out_of_memory_test.cpp.
+// Makes the n-th allocation fail, for each n in turn, and counts allocated bytes. The operators new and
+// delete that do it are in out_of_memory_test.cpp.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@
 
 #include "engine/tessera/tessera.hpp"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // they bring an allocator of their own
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // sanitizers replace the allocator
 #define TESSERA_CAN_FAIL_ALLOCATIONS 0
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
@@ -27,16 +27,16 @@
 
 namespace tessera::test {
 
-/// How many succeed before one fails, on whatever thread; below 0: as many as anybody likes.
+/// Number of allocations, on any thread, that succeed before one fails; negative: no limit.
 extern std::atomic<long> allocations_left;
-/// Bytes that are allocated now, and the most that were at any time since it was set; with what the allocator
-/// rounds them up to.
+/// Bytes allocated now, and their maximum since it was last set, as rounded up by the allocator.
 extern std::atomic<long> live_bytes, peak_live_bytes;
 
-inline void refuse_lost(int at) { ADD_FAILURE() << "allocation " << at << " was lost"; }
+inline void refuse_lost(int at) { ADD_FAILURE() << "allocation " << at << " was ignored"; }
 
-/// Runs `act` with every allocation failing in turn, until it needs no more. `after_failure` then looks at
-/// what is left; `after_loss` where `act` went on without. Returns how many there were.
+/// Runs `act` with each of its allocations failing in turn, until a run needs no more. `after_failure` then
+/// checks the remaining state; `after_loss` is called if `act` succeeded without the allocation. Returns the
+/// number of allocations.
 template <class Act, class AfterFailure, class AfterLoss = void (*)(int)>
 int fail_every_allocation(const Act& act, const AfterFailure& after_failure,
                           const AfterLoss& after_loss = refuse_lost) {

@@ -1,4 +1,4 @@
-// RendererOptions::trace: what the workers of a frame did.
+// RendererOptions::trace: the tasks of a frame's workers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using namespace test;
 
 constexpr FrameBufferFormat kFormat{.width = 300, .height = 170};
 
-/// Many small triangles, in two draws.
+/// Many small triangles in two draws.
 struct Scattered {
   std::vector<float> positions;
   Scattered() {
@@ -59,7 +59,7 @@ Traced traced(RendererOptions options) {
   return result;
 }
 
-// Of tiles without a bin, which a clear alone fills, several may be one task.
+// One task may contain several tiles that have no bin and only show a clear.
 void expect_each_pixel_once(const Tasks& tasks) {
   std::vector<int> times(static_cast<std::size_t>(kFormat.width * kFormat.height));
   for (const FrameTask& task : tasks) {
@@ -81,13 +81,14 @@ void expect_sound_times(const Tasks& tasks, int threads) {
     EXPECT_GE(task.end, task.begin);
     ASSERT_GE(task.worker, 0);
     ASSERT_LT(task.worker, threads);
-    EXPECT_GE(task.begin, free_at[task.worker]) << "nobody does two things at once";
+    EXPECT_GE(task.begin, free_at[task.worker]) << "a worker runs one task at a time";
     free_at[task.worker] = task.end;
   }
 }
 
 void expect_that_passes_wait(const Tasks& tasks) {
-  double all_ended = 0, ended = 0;
+  double all_ended = 0;
+  double ended = 0;
   int pass = 0;
   for (const FrameTask& task : tasks) {
     ASSERT_GE(task.pass, pass);
@@ -112,7 +113,7 @@ TEST(FrameTrace, HoldsEachStageAndEachPixel) {
     expect_each_pixel_once(frame.tasks);
     expect_that_passes_wait(frame.tasks);
     EXPECT_EQ(passes_of(frame.tasks, FrameStage::binning), 2)
-        << "triangles go into bins, and what tiles have in theirs is counted";
+        << "one pass fills the bins, one counts the entries of each tile";
     EXPECT_EQ(passes_of(frame.tasks, FrameStage::tiles), 1);
     EXPECT_TRUE(std::is_sorted(frame.tasks.begin(), frame.tasks.end(),
                                [](const FrameTask& a, const FrameTask& b) { return a.stage < b.stage; }));
@@ -123,7 +124,7 @@ TEST(FrameTrace, HoldsEachStageAndEachPixel) {
   }
 }
 
-TEST(FrameTrace, GoesBackToBinningWhereBinsAreFew) {
+TEST(FrameTrace, ReturnsToBinningIfBinMemoryIsSmall) {
   const Traced frame = traced({.threads = 2, .tile_size = 32, .bin_memory = kMinBinMemory});
   expect_sound_times(frame.tasks, 2);
   expect_each_pixel_once(frame.tasks);
@@ -135,10 +136,10 @@ TEST(FrameTrace, GoesBackToBinningWhereBinsAreFew) {
                           [](const FrameTask& task) { return task.stage == FrameStage::binning; }));
 }
 
-/// Rows of tiles, 0 at the bottom, as a worker takes them to which others leave all. Where planes are stored,
-/// rows of a narrow frame are tasks.
+/// Rows of tiles, 0 at the bottom, in the order in which `worker` runs them if the other workers run none. If
+/// planes are stored, each row of a narrow frame is one task.
 ///
-/// @param triangles  of each row
+/// @param triangles  triangle count per row
 std::vector<int> rows_in_order(const std::vector<int>& triangles, int workers, int worker = 0) {
   constexpr int kTile = 32;
   const int height = kTile * static_cast<int>(triangles.size());
@@ -166,27 +167,27 @@ std::vector<int> rows_in_order(const std::vector<int>& triangles, int workers, i
   return rows;
 }
 
-// Those with nearly as many go from the top down.
-TEST(FrameTrace, BeginsWithTheTilesThatHoldMost) {
+// Rows of similar counts run from top to bottom.
+TEST(FrameTrace, TilesWithMostTrianglesComeFirst) {
   const std::vector<int> triangles{3, 41, 0, 900, 5, 3, 1, 100, 40, 2, 700, 7};
   EXPECT_EQ(rows_in_order(triangles, 1), (std::vector{3, 10, 7, 8, 1, 11, 4, 5, 0, 9, 6, 2}));
   EXPECT_EQ(rows_in_order(triangles, 3), (std::vector{3, 8, 4, 9, 10, 1, 5, 6, 7, 11, 0, 2}))
-      << "each of three begins with a long one";
+      << "each of the three workers begins with a long row";
 }
 
 TEST(FrameTrace, GivesEachWorkerNeighboursOfEachLength) {
   const std::vector<int> triangles{100, 3, 100, 3, 100, 3, 100, 3, 100, 3, 100, 3};
   EXPECT_EQ(rows_in_order(triangles, 2), (std::vector{10, 8, 6, 11, 9, 7, 4, 2, 0, 5, 3, 1}));
   EXPECT_EQ(rows_in_order(triangles, 4), (std::vector{10, 8, 11, 6, 4, 9, 2, 7, 5, 0, 3, 1}))
-      << "as many of both, where that comes out";
+      << "equal numbers of both lengths if they divide evenly";
 }
 
-// Loads that are powers of two are of a weight each.
-TEST(FrameTrace, DealsTilesOfEachLoadToAllWorkers) {
+// Each power of two is a separate load class.
+TEST(FrameTrace, DistributesEachLoadClassOverAllWorkers) {
   Random random(17);
   for (int round = 0; round < 40; ++round) {
-    const int workers = 1 + static_cast<int>(random.next() % 6),
-              rows = workers + static_cast<int>(random.next() % 20);
+    const int workers = 1 + static_cast<int>(random.next() % 6);
+    const int rows = workers + static_cast<int>(random.next() % 20);
     std::vector<int> triangles;
     std::map<int, int> rows_of_load;
     for (int row = 0; row < rows; ++row) ++rows_of_load[triangles.emplace_back(1 << random.next() % 4)];
@@ -198,7 +199,7 @@ TEST(FrameTrace, DealsTilesOfEachLoadToAllWorkers) {
           first_of_share(order.size(), static_cast<std::size_t>(workers), static_cast<std::size_t>(share)));
     };
     std::rotate(order.begin(), order.end() - first(worker),
-                order.end());  // it begins with its own share, and ends with the one before
+                order.end());  // the order starts with the worker's share and wraps around to the one before
     EXPECT_TRUE(std::is_permutation(order.begin(), order.end(), std::views::iota(0, rows).begin()));
     for (int share = 0; share < workers; ++share) {
       std::vector<int> loads;
@@ -215,7 +216,7 @@ TEST(FrameTrace, DealsTilesOfEachLoadToAllWorkers) {
   }
 }
 
-TEST(FrameTrace, OfAFrameThatFailsIsNotTold) {
+TEST(FrameTrace, FailedFrameReportsNothing) {
   static constexpr float kTriangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   int calls = 0;
   RendererOptions options{.threads = 1, .progress = [](double) { return false; }};
@@ -228,7 +229,7 @@ TEST(FrameTrace, OfAFrameThatFailsIsNotTold) {
   EXPECT_EQ(calls, 0);
 }
 
-TEST(FrameTrace, LetsOutWhatItsListenerThrows) {
+TEST(FrameTrace, ExceptionsOfTheListenerReachTheCaller) {
   RendererOptions options{.threads = 2};
   options.trace = [](std::span<const FrameTask>) { throw std::runtime_error("enough"); };
   FrameBuffer buffer(kFormat);
@@ -238,7 +239,7 @@ TEST(FrameTrace, LetsOutWhatItsListenerThrows) {
   frame.clear({.color = Color{1, 1, 1, 1}});
   frame.draw({.positions = kTriangle});
   EXPECT_THROW(renderer.finish(frame), std::runtime_error);
-  EXPECT_EQ(frame.draw_count(), 1u) << "it is still recorded";
+  EXPECT_EQ(frame.draw_count(), 1u) << "still recorded";
   EXPECT_NE(fingerprint(buffer), fingerprint(FrameBuffer(kFormat))) << "the frame was rendered";
 }
 

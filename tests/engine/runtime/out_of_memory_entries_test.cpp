@@ -1,6 +1,6 @@
-// Every call of the interface with each of its allocations failing once: an Error that speaks of memory,
-// everything as it was before, and what comes after is as if nothing had happened. Frames of every kind of
-// draw, on one thread and on two.
+// Fails each allocation of every public function once: the result is an Error that names memory, the state
+// before the call is kept, and later calls succeed. Covers frames of every kind of draw, on one thread and on
+// two.
 #include "tests/engine/runtime/failing_allocations.h"
 
 #if TESSERA_CAN_FAIL_ALLOCATIONS
@@ -31,20 +31,20 @@ std::vector<FrameBufferFormat> formats() {
   all[2].accumulation_bits = 0;
   all[2].palette = {{0, 0, 0, 1},
                     {0.3f, 0.7f, 0.1f, 1},
-                    {1, 1, 1, 1}};  // the search of a large one is thousands of allocations
+                    {1, 1, 1, 1}};  // the search of a large palette makes thousands of allocations
   all[3].color_bits = 2, all[3].depth = DepthFormat::none, all[3].stencil_bits = 0;
   return all;
 }
 
-// Points, lines, polygons in each mode, textures, shadows, bitmaps, images, index lighting, accumulation. A
-// frame that starts with clears may be finished after all; what it adds to is cleared, too.
+// Points, lines, polygons in each mode, textures, shadows, bitmaps, images, index lighting, accumulation. The
+// frame begins with clears, also of the accumulation buffer, so that it can be finished after a failure.
 template <class Scene>
 void record(const Scene& scene, Frame& frame) {
   if (scene.format.accumulation_bits > 0) frame.clear({.accumulation = Color{0, 0, 0, 0}});
   scene.record(frame);
 }
 
-// Returns how many allocations there were.
+// Returns the number of allocations.
 template <class Scene>
 int expect_that_it_can_be_finished_afterwards(const Scene& scene, const RendererOptions& options) {
   SCOPED_TRACE(describe(scene.format) + ", " + std::to_string(options.threads) +
@@ -69,7 +69,7 @@ int expect_that_it_can_be_finished_afterwards(const Scene& scene, const Renderer
   return fail_every_allocation([&] { renderer->finish(*frame); },
                                [&](int at) {
                                  EXPECT_EQ(frame->draw_count(), draws) << "still recorded";
-                                 // The same renderer and buffer; now and then another frame in between.
+                                 // The same renderer and buffer; sometimes with another frame in between.
                                  if (at % 5 == 0) {
                                    FrameBuffer other({.width = 20, .height = 20});
                                    Frame small(other);
@@ -92,15 +92,15 @@ void expect_frames_that_can_be_finished_afterwards(int threads, int draws) {
   }
 }
 
-// With so many draws, each of the ten primitives is among them.
+// Enough draws for each of the ten primitives.
 TEST(OutOfMemoryAnywhere, FramesOfEveryKindCanBeFinishedAfterwards) {
   expect_frames_that_can_be_finished_afterwards(1, long_tests() ? 40 : 21);
 }
-TEST(OutOfMemoryAnywhere, SoCanThoseOfTwoThreads) {
+TEST(OutOfMemoryAnywhere, FramesOnTwoThreadsCanBeFinishedAfterwards) {
   expect_frames_that_can_be_finished_afterwards(2, long_tests() ? 40 : 5);
 }
 
-TEST(OutOfMemoryAnywhere, SoCanThoseDrawnAFewTilesAtATime) {
+TEST(OutOfMemoryAnywhere, FramesInPartsOfFewTilesCanBeFinishedAfterwards) {
   const BinOverflowScene scene({.width = 120, .height = 60}, 510);
   const RendererOptions options{.threads = 1, .tile_size = 32, .bin_memory = kMinBinMemory};
   FrameBuffer buffer(scene.format);
@@ -109,22 +109,24 @@ TEST(OutOfMemoryAnywhere, SoCanThoseDrawnAFewTilesAtATime) {
   ASSERT_GT(Renderer(options).finish(frame).bin_passes, 1u);
   EXPECT_GT(expect_that_it_can_be_finished_afterwards(scene, options), 200);
 }
-TEST(OutOfMemoryAnywhere, SoCanThoseDrawnAFewBatchesAtATime) {
+TEST(OutOfMemoryAnywhere, FramesInPartsOfFewBatchesCanBeFinishedAfterwards) {
   EXPECT_GT(
       expect_that_it_can_be_finished_afterwards(BinOverflowScene({.width = 60, .height = 50}, 2502),
                                                 {.threads = 1, .tile_size = 64, .bin_memory = kMinBinMemory}),
       100);
 }
 
-// What was recorded before a call that fails is drawn, and nothing of the call.
-TEST(OutOfMemoryAnywhere, RecordingThatFailsLeavesTheFrameAsItWas) {
+// Draws recorded before the failed call remain; nothing of the failed call does.
+TEST(OutOfMemoryAnywhere, FailedRecordingLeavesTheFrameUnchanged) {
   const FrameBufferFormat format{.width = 40, .height = 30, .accumulation_bits = 16};
   const std::vector<std::uint8_t> bytes(4 * 8 * 8, 0x7e);
   const Texture texture({.pixels = bytes.data(), .width = 8, .height = 8});
   const MeshData mesh = rectangle(-0.5f, -0.5f, 0.6f, 0.4f);
   std::vector<Light> lights(3);
   lights[1].position = {0, 0, 5, 1};
-  DrawState red = unlit({1, 0, 0, 1}), shadow, textured;
+  DrawState red = unlit({1, 0, 0, 1});
+  DrawState shadow;
+  DrawState textured;
   shadow.shadow_on = ShadowOn{.plane = {0, 0, 1, 2}};
   textured.texture = &texture;
   const auto begin = [&](Frame& frame) {
@@ -171,7 +173,7 @@ TEST(OutOfMemoryAnywhere, RecordingThatFailsLeavesTheFrameAsItWas) {
     EXPECT_GT(fail_every_allocation([&] { call.run(*frame); },
                                     [&](int) {
                                       EXPECT_EQ(frame->draw_count(), 1u);
-                                      // The state for draws that follow is the one before, too.
+                                      // The state for later draws is unchanged too.
                                       finish(*frame);
                                       EXPECT_EQ(fingerprint(*buffer), expected);
                                       start();
@@ -180,7 +182,7 @@ TEST(OutOfMemoryAnywhere, RecordingThatFailsLeavesTheFrameAsItWas) {
   }
 }
 
-TEST(OutOfMemoryAnywhere, MakingAndReadingLeavesWhatIsThere) {
+TEST(OutOfMemoryAnywhere, ConstructionAndReadingLeaveObjectsUnchanged) {
   const FrameBufferFormat format{.width = 40,
                                  .height = 30,
                                  .color_mode = ColorMode::index,
@@ -190,7 +192,8 @@ TEST(OutOfMemoryAnywhere, MakingAndReadingLeavesWhatIsThere) {
       .width = 40, .height = 30, .alpha_bits = 8, .accumulation_bits = 16, .samples = 4};
   const std::vector<std::uint8_t> bytes(4 * 17 * 13, 0x35);
   const std::vector<Color> other{{0.5f, 0.5f, 0, 1}, {0, 0, 1, 1}};
-  FrameBuffer indices(format), colors(rgb);
+  FrameBuffer indices(format);
+  FrameBuffer colors(rgb);
   const MeshData mesh = rectangle(-0.5f, -0.5f, 0.6f, 0.4f);
   for (FrameBuffer* const buffer : {&indices, &colors}) {
     Frame frame(*buffer);
@@ -198,7 +201,8 @@ TEST(OutOfMemoryAnywhere, MakingAndReadingLeavesWhatIsThere) {
     frame.draw(mesh.view(), unlit({1, 0, 0, 1}));
     Renderer({.threads = 1}).finish(frame);
   }
-  Image image(indices), before(indices);
+  Image image(indices);
+  Image before(indices);
   indices.read_color(before.target());
   const auto shows_the_same = [&](int at) {
     indices.read_color(image.target());
@@ -206,12 +210,15 @@ TEST(OutOfMemoryAnywhere, MakingAndReadingLeavesWhatIsThere) {
   };
   const auto nothing = [](int) {};
   std::vector<std::uint32_t> words(1200);
-  std::vector<float> floats(4800), depths(1200);
+  std::vector<float> floats(4800);
+  std::vector<float> depths(1200);
   std::vector<std::uint8_t> stencil(1200);
   std::vector<std::byte> room(FrameBuffer::memory_bytes(rgb) + 64);
   std::byte* const aligned = room.data() + (64 - reinterpret_cast<std::uintptr_t>(room.data()) % 64) % 64;
-  const TextureSampler mipmaps, plain{.min = TextureFilter::linear};
-  std::vector<FrameBufferFormat> copies(200, format);  // a copy of its palette is the caller's own
+  const TextureSampler mipmaps;
+  const TextureSampler plain{.min = TextureFilter::linear};
+  // Passed by move: copying the palette would be an allocation of the caller.
+  std::vector<FrameBufferFormat> copies(200, format);
   const std::pair<const char*, std::function<void()>> calls[] = {
       {"FrameBuffer of indices",
        [&] {
@@ -245,7 +252,7 @@ TEST(OutOfMemoryAnywhere, MakingAndReadingLeavesWhatIsThere) {
     EXPECT_GT(fail_every_allocation(call, nothing), 0);
     shows_the_same(-1);
   }
-  // One that has not been made real yet; and what the buffer shows, until it shows another.
+  // On failure a new buffer keeps its cleared contents, and a buffer shows its old palette.
   const Fingerprint of_colors = fingerprint(colors);
   for (const Buffer which : {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation}) {
     FrameBuffer fresh(rgb);
@@ -255,7 +262,7 @@ TEST(OutOfMemoryAnywhere, MakingAndReadingLeavesWhatIsThere) {
   EXPECT_EQ(fingerprint(colors), of_colors);
   EXPECT_GT(fail_every_allocation([&] { indices.set_palette(other); }, shows_the_same), 0);
   indices.read_color(image.target());
-  EXPECT_FALSE(image.bytes == before.bytes) << "at last";
+  EXPECT_FALSE(image.bytes == before.bytes) << "the new palette is shown after success";
   EXPECT_EQ(indices.format().palette.size(), 2u);
 }
 

@@ -1,6 +1,6 @@
-// Allocations that fail, one after the other, in frames with an ImageTarget, captures and a trace, of
-// renderers that are new and of ones that have to grow: pictures and captures are in the end what they would
-// have been. Of a trace alone, which nobody waits for, an allocation may be lost.
+// Fails each allocation in turn, in frames with an ImageTarget, captures and a trace, of new renderers and of
+// renderers that must grow: pictures and captures are correct in the end. A trace may lose an allocation
+// silently, because no result depends on it.
 #include "tests/engine/runtime/failing_allocations.h"
 
 #if TESSERA_CAN_FAIL_ALLOCATIONS
@@ -20,10 +20,11 @@ namespace {
 
 using namespace test;
 
-/// The caller's memory for all that a frame may write.
+/// The caller's memory for all outputs of a frame.
 struct Outputs {
   Image image;
-  std::vector<std::uint32_t> draw_ids, primitive_ids;
+  std::vector<std::uint32_t> draw_ids;
+  std::vector<std::uint32_t> primitive_ids;
   std::vector<float> normals;
 
   explicit Outputs(const FrameBuffer& buffer)
@@ -49,10 +50,12 @@ void expect_same(const Outputs& found, const Outputs& expected, int at) {
 }
 
 struct Wanted {
-  bool captures = false, trace = false;
+  bool captures = false;
+  bool trace = false;
 };
 
-// Returns how many allocations there were. `before`, if any, is what the renderer has finished already.
+// Returns the number of allocations. `before`, if not null, is a scene that the renderer has finished
+// already.
 template <class Scene>
 int expect_outputs_afterwards(const Scene& scene, const Scene* before, const Wanted& wanted,
                               RendererOptions options) {
@@ -61,7 +64,8 @@ int expect_outputs_afterwards(const Scene& scene, const Scene* before, const Wan
   std::optional<FrameBuffer> buffer(scene.format);
   std::optional<Renderer> renderer;
   std::optional<Frame> frame;
-  Outputs expected(*buffer), found(*buffer);
+  Outputs expected(*buffer);
+  Outputs found(*buffer);
   const auto record = [&](Outputs& outputs) {
     frame.emplace(*buffer);
     if (scene.format.accumulation_bits > 0) frame->clear({.accumulation = Color{0, 0, 0, 0}});
@@ -98,7 +102,7 @@ int expect_outputs_afterwards(const Scene& scene, const Scene* before, const Wan
                                },
                                [&](int at) {
                                  EXPECT_TRUE(wanted.trace && traced == 0)
-                                     << "allocation " << at << " was lost";
+                                     << "allocation " << at << " was ignored";
                                  expect_same(found, expected, at);
                                  start();
                                });
@@ -106,27 +110,28 @@ int expect_outputs_afterwards(const Scene& scene, const Scene* before, const Wan
 
 constexpr Wanted kWanted[] = {{}, {.captures = true}, {.trace = true}, {.captures = true, .trace = true}};
 
-// Of a picture that starts from a clear and stores nothing, tiles without triangles are copied from a row of
-// their own.
-TEST(OutOfMemoryOutputs, PicturesCapturesAndTracesOfNewRenderers) {
+// In a picture that starts from a clear and stores nothing, tiles without triangles are copied from a
+// prepared row.
+TEST(OutOfMemoryOutputs, NewRenderersProduceAllOutputs) {
   const RandomFrame scene({.width = 150, .height = 90}, 60);
   for (const Wanted& wanted : kWanted)
     EXPECT_GT(expect_outputs_afterwards<RandomFrame>(scene, nullptr, wanted, {.threads = 1, .tile_size = 32}),
               20);
 }
 
-// Whatever has grown once has to grow again: more draws, more pixels, larger tiles' memory, samples.
-TEST(OutOfMemoryOutputs, OfRenderersThatHaveToGrow) {
-  const RandomFrame small({.width = 20, .height = 20}, 3), large({.width = 300, .height = 90}, 400);
+// Every buffer must grow again: more draws, more pixels, larger tiles, samples.
+TEST(OutOfMemoryOutputs, GrowingRenderersProduceAllOutputs) {
+  const RandomFrame small({.width = 20, .height = 20}, 3);
+  const RandomFrame large({.width = 300, .height = 90}, 400);
   for (const Wanted& wanted : kWanted)
     EXPECT_GT(expect_outputs_afterwards(large, &small, wanted, {.threads = 1}), 10);
 }
-TEST(OutOfMemoryOutputs, OfRenderersThatHaveToGrowForEveryOperation) {
+TEST(OutOfMemoryOutputs, GrowingRenderersProduceAllOutputsOfOperations) {
   const ThreadLimit limit(2);
   const RandomOperations small({.width = 20, .height = 20}, 1);
   const RandomOperations accumulated({.width = 40, .height = 34, .alpha_bits = 8, .accumulation_bits = 16},
-                                     9),
-      sampled({.width = 40, .height = 34, .samples = 4}, 9);
+                                     9);
+  const RandomOperations sampled({.width = 40, .height = 34, .samples = 4}, 9);
   for (const RandomOperations* const large : {&accumulated, &sampled})
     for (const int threads : {1, 2})
       EXPECT_GT(expect_outputs_afterwards(*large, &small, {.captures = true},

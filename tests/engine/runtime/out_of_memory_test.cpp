@@ -1,5 +1,4 @@
-// Every allocation of a frame fails once, one after the other: each failure is one Error, and nothing is lost
-// by it.
+// Fails each allocation of a frame once: each failure is one Error, and the frame can be finished afterwards.
 #include <gtest/gtest.h>
 
 #include <malloc.h>
@@ -40,7 +39,7 @@ void* operator new(std::size_t size) { return take(size == 0 ? 1 : size, alignof
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return take(size == 0 ? 1 : size, static_cast<std::size_t>(alignment));
 }
-// Who asks this way can do without: std::stable_sort.
+// std::stable_sort uses this form and continues without the memory.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   return counted(std::malloc(size == 0 ? 1 : size));
 }
@@ -54,10 +53,10 @@ namespace {
 
 using namespace test;
 
-TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
+TEST(OutOfMemory, FailedFrameCanBeFinishedAfterwards) {
   const RandomFrame scene({.width = 150, .height = 90, .accumulation_bits = 16}, 60);
-  // What fails after the last tile (the log's message) leaves a picture behind: what is added to is cleared
-  // before.
+  // A failure after the last tile (in the log message) leaves the picture stored, so buffers that are read
+  // are cleared first.
   const auto record_more = [](Frame& frame) {
     frame.clear({.stencil = 3u, .accumulation = Color{0, 0, 0, 0}});
     frame.clear({.stencil = 5u, .scissor = Rect{1, 1, 5, 5}});
@@ -73,7 +72,8 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
     }
     plain.finish(once);
     const Fingerprint expected = fingerprint(reference);
-    std::vector<std::uint32_t> draw_ids(pixel_count(reference)), expected_draw_ids(draw_ids.size());
+    std::vector<std::uint32_t> draw_ids(pixel_count(reference));
+    std::vector<std::uint32_t> expected_draw_ids(draw_ids.size());
     std::vector<float> normals(3 * draw_ids.size());
     scene.record(once);
     once.capture({.draw_ids = expected_draw_ids});
@@ -84,7 +84,7 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
     const auto start = [&] {
       frame.reset();
       buffer.emplace(scene.format);
-      // Without working memory yet; somebody listens.
+      // A new renderer without scratch memory, with a log callback.
       renderer.emplace(RendererOptions{
           .threads = 1, .count_fragments = stencil, .log = [](LogLevel, std::string_view) {}});
       frame.emplace(*buffer);
@@ -102,7 +102,7 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
                                 renderer->finish(*frame);
                                 EXPECT_EQ(fingerprint(*buffer), expected) << "allocation " << at;
                                 if (stencil) {
-                                  EXPECT_EQ(draw_ids, expected_draw_ids) << "asked for before, and still";
+                                  EXPECT_EQ(draw_ids, expected_draw_ids) << "still captured";
                                 }
                                 start();
                               });
@@ -110,7 +110,7 @@ TEST(OutOfMemory, AFrameThatFailsCanBeFinishedAfterwards) {
   }
 }
 
-TEST(OutOfMemory, RecordingAndReadingSayErrorToo) {
+TEST(OutOfMemory, RecordingAndReadingThrowError) {
   const RandomFrame scene({.width = 40, .height = 30}, 20);
   Renderer renderer({.threads = 1});
   FrameBuffer buffer(scene.format);

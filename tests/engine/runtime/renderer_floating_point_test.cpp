@@ -21,12 +21,16 @@ namespace {
 
 using namespace test;
 
-constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x40, kRoundUp = 0x4000, kRoundDown = 0x2000,
-                   kModeBits = 0xffc0, kMasks = 0x1f80;
+constexpr unsigned kFlushToZero = 0x8000;
+constexpr unsigned kDenormalsAreZero = 0x40;
+constexpr unsigned kRoundUp = 0x4000;
+constexpr unsigned kRoundDown = 0x2000;
+constexpr unsigned kModeBits = 0xffc0;
+constexpr unsigned kMasks = 0x1f80;
 constexpr unsigned kModes[] = {kMasks | kFlushToZero | kDenormalsAreZero, kMasks | kRoundUp,
                                kMasks | kRoundDown, kMasks | kFlushToZero | kDenormalsAreZero | kRoundUp};
 
-/// Another mode, as a host program or its plug-ins may leave it behind.
+/// A mode other than the default, as a host program or its plug-ins may leave it.
 class HostMode {
  public:
   explicit HostMode(unsigned mode) : saved_(_mm_getcsr()), mode_(mode) { _mm_setcsr(mode); }
@@ -34,10 +38,11 @@ class HostMode {
   bool untouched() const { return (_mm_getcsr() & kModeBits) == mode_; }
 
  private:
-  unsigned saved_, mode_;
+  unsigned saved_;
+  unsigned mode_;
 };
 
-// Many products of these matrices and colours are denormal, or lie between two floats.
+// Many products of these matrices and colours are denormal or lie between two floats.
 void record(const RandomFrame& random, Frame& frame) {
   random.record(frame);
   DrawState state;
@@ -59,9 +64,12 @@ void expect_same_bits_in_every_mode(RendererOptions options, const FrameBufferFo
   renderer.finish(frame);
   const Fingerprint expected = fingerprint(plain);
   for (const unsigned mode : kModes) {
-    FrameBuffer buffer(format), presented(format);
-    Frame odd(buffer), shown(presented);
-    Image image(presented), expected_image(plain);
+    FrameBuffer buffer(format);
+    FrameBuffer presented(format);
+    Frame odd(buffer);
+    Frame shown(presented);
+    Image image(presented);
+    Image expected_image(plain);
     record(random, odd);
     record(random, shown);
     bool untouched = false;
@@ -150,7 +158,7 @@ TEST(FloatingPointModeOfTheCaller, ChangesNoBitOfReadDepthsPalettesAndClears) {
 }
 
 // Called after every task, and slow enough to be called again after the next one.
-TEST(FloatingPointModeOfTheCaller, LeftByAProgressCallbackChangesNoBit) {
+TEST(FloatingPointModeOfTheCaller, SetByAProgressCallbackChangesNoBit) {
   const ThreadLimit limit(4);
   const FrameBufferFormat format{.width = 140, .height = 90};
   const RandomFrame random(format, 400);
@@ -172,7 +180,7 @@ TEST(FloatingPointModeOfTheCaller, LeftByAProgressCallbackChangesNoBit) {
   }
 }
 
-TEST(FloatingPointModeOfTheCaller, IsRestoredByAFrameThatFails) {
+TEST(FloatingPointModeOfTheCaller, IsRestoredIfAFrameFails) {
   Renderer renderer({.threads = 1});
   FrameBuffer buffer({.width = 8, .height = 8});
   Frame frame(buffer);

@@ -1,5 +1,4 @@
-// Renderers, frames and frame buffers: used again and again, on threads of their own, moved around, without
-// growing.
+// Renderers, frames and frame buffers: used repeatedly, on separate threads, and moved, without growing.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -32,10 +31,10 @@ RandomFrame frame_of(int width, int height, ColorMode mode = ColorMode::rgb, int
       {.width = width, .height = height, .color_mode = mode, .color_bits = bits, .depth = depth}, 300);
 }
 
-TEST(Renderers, OnThreadsOfTheirOwnGiveTheBitsThatTheyGiveAlone) {
+TEST(RendererReuse, GiveTheSameBitsOnSeparateThreads) {
   const ThreadLimit limit(4);
-  const RandomFrame wide = frame_of(200, 90),
-                    high = frame_of(90, 170, ColorMode::index, 8, DepthFormat::float32);
+  const RandomFrame wide = frame_of(200, 90);
+  const RandomFrame high = frame_of(90, 170, ColorMode::index, 8, DepthFormat::float32);
   Renderer alone({.threads = 1});
   const Fingerprint expected[2] = {picture(alone, wide), picture(alone, high)};
   int wrong[4] = {};
@@ -52,7 +51,7 @@ TEST(Renderers, OnThreadsOfTheirOwnGiveTheBitsThatTheyGiveAlone) {
   for (const int count : wrong) EXPECT_EQ(count, 0);
 }
 
-TEST(Renderers, DrawFramesOfAnySizeAfterEachOther) {
+TEST(RendererReuse, DrawFramesOfDifferentSizes) {
   const RandomFrame frames[] = {
       frame_of(300, 200), frame_of(1, 1), frame_of(700, 20, ColorMode::rgb, 8, DepthFormat::none),
       frame_of(33, 400, ColorMode::index, 4), frame_of(64, 64, ColorMode::rgb, 1, DepthFormat::unorm32)};
@@ -65,11 +64,12 @@ TEST(Renderers, DrawFramesOfAnySizeAfterEachOther) {
     }
 }
 
-TEST(Renderers, DrawIntoManyBuffersInTurn) {
+TEST(RendererReuse, DrawIntoManyBuffersInTurn) {
   const RandomFrame random = frame_of(80, 60);
   Renderer renderer({.threads = 1});
   FrameBuffer first(random.format), second(random.format);
-  Frame to_first(first), to_second(second);
+  Frame to_first(first);
+  Frame to_second(second);
   random.record(to_first);
   random.record(to_second);
   renderer.finish(to_second);
@@ -78,7 +78,7 @@ TEST(Renderers, DrawIntoManyBuffersInTurn) {
   EXPECT_EQ(fingerprint(first), fingerprint(second));
 }
 
-TEST(Renderers, SayWhatTheyChose) {
+TEST(RendererReuse, ReportTheirOptions) {
   const ThreadLimit limit(6);
   EXPECT_EQ(Renderer({.threads = 5}).options().threads, 5);
   EXPECT_GE(Renderer().options().threads, 1);
@@ -89,7 +89,7 @@ TEST(Renderers, SayWhatTheyChose) {
   EXPECT_FALSE(Renderer({.defer_shading = false}).options().defer_shading);
 }
 
-TEST(Moving, AFrameStaysValidWhenItsFrameBufferIsMoved) {
+TEST(MovedObjects, FrameStaysValidIfItsFrameBufferIsMoved) {
   const RandomFrame random = frame_of(80, 60);
   Renderer renderer({.threads = 1});
   const Fingerprint expected = picture(renderer, random);
@@ -108,10 +108,11 @@ TEST(Moving, AFrameStaysValidWhenItsFrameBufferIsMoved) {
   EXPECT_EQ(fingerprint(many[0]), expected);
 }
 
-TEST(Moving, AssigningAFrameBufferKeepsItsPixelsAndItsFrames) {
+TEST(MovedObjects, AssignedFrameBufferKeepsItsPixelsAndFrames) {
   const RandomFrame random = frame_of(80, 60);
   Renderer renderer({.threads = 1});
-  FrameBuffer source(random.format), target({.width = 3, .height = 3});
+  FrameBuffer source(random.format);
+  FrameBuffer target({.width = 3, .height = 3});
   Frame frame(source);
   random.record(frame);
   renderer.finish(frame);
@@ -124,12 +125,14 @@ TEST(Moving, AssigningAFrameBufferKeepsItsPixelsAndItsFrames) {
   EXPECT_EQ(packed_colors(target)[0], 0xffffffu);
 }
 
-TEST(Moving, AFrameTakesItsRecordingAlong) {
+TEST(MovedObjects, FrameKeepsItsRecording) {
   const RandomFrame random = frame_of(80, 60);
   Renderer renderer({.threads = 1});
   const Fingerprint expected = picture(renderer, random);
-  FrameBuffer buffer(random.format), unused({.width = 2, .height = 2});
-  Frame first(buffer), last(unused);
+  FrameBuffer buffer(random.format);
+  FrameBuffer unused({.width = 2, .height = 2});
+  Frame first(buffer);
+  Frame last(unused);
   random.record(first);
   const std::size_t draws = first.draw_count();
   Frame second(std::move(first));
@@ -139,7 +142,7 @@ TEST(Moving, AFrameTakesItsRecordingAlong) {
   EXPECT_EQ(fingerprint(buffer), expected);
 }
 
-TEST(Moving, ARendererWorksOnWhereItIsMoved) {
+TEST(MovedObjects, RendererWorksAfterAMove) {
   const RandomFrame random = frame_of(80, 60);
   Renderer first({.threads = 2, .tile_size = 32});
   const Fingerprint expected = picture(first, random);
@@ -151,7 +154,7 @@ TEST(Moving, ARendererWorksOnWhereItIsMoved) {
   EXPECT_EQ(picture(third, random), expected);
 }
 
-TEST(Frames, KeepCameraLightsAndModelForTheNextRecording) {
+TEST(FrameReuse, KeepCameraLightsAndModelForTheNextRecording) {
   FrameBuffer buffer({.width = 40, .height = 30});
   Renderer renderer({.threads = 1});
   const MeshData mesh = rectangle(-1, -1, 1, 1, -2);
@@ -175,17 +178,18 @@ TEST(Frames, KeepCameraLightsAndModelForTheNextRecording) {
   fresh.clear({.color = Color{}, .depth = 1.0});
   fresh.draw(mesh.view(), {});
   renderer.finish(fresh);
-  EXPECT_NE(fingerprint(buffer), prints[0]) << "which a new frame does not have";
+  EXPECT_NE(fingerprint(buffer), prints[0]) << "a new frame has the default camera and lights";
 }
 
-#if defined(__linux__) && !defined(TESSERA_CHECKED)  // sanitizers keep what was freed for a while
+#if defined(__linux__) && !defined(TESSERA_CHECKED)  // sanitizers delay the reuse of freed memory
 std::size_t resident_bytes() {
-  std::size_t whole = 0, resident = 0;
+  std::size_t whole = 0;
+  std::size_t resident = 0;
   std::ifstream("/proc/self/statm") >> whole >> resident;
   return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-TEST(Memory, DoesNotGrowOverEqualFrames) {
+TEST(RendererMemory, DoesNotGrowOverEqualFrames) {
   const RandomFrame random = frame_of(300, 200);
   Renderer renderer({.threads = 2});
   const auto frames = [&](int count) {

@@ -1,4 +1,4 @@
-// A frame like the one before takes no memory: whatever it needs stands there from then.
+// A frame equal to the previous one allocates nothing: all memory is kept between frames.
 #include "tests/engine/runtime/failing_allocations.h"
 
 #if TESSERA_CAN_FAIL_ALLOCATIONS
@@ -21,7 +21,7 @@ namespace {
 
 using namespace test;
 
-/// How many allocations `act` makes, on whatever thread.
+/// Number of allocations of `act`, on any thread.
 template <class Act>
 long allocations_of(const Act& act) {
   constexpr long kPlenty = std::numeric_limits<long>::max() / 2;
@@ -32,7 +32,7 @@ long allocations_of(const Act& act) {
   return made;
 }
 
-/// @param before_the_last  is called before the frame that may take none
+/// @param before_the_last  called before the frame that must not allocate
 template <class Scene>
 void expect_steady(
     const Scene& scene, const RendererOptions& options, bool keeps_planes,
@@ -51,14 +51,14 @@ void expect_steady(
     scene.record(frame);
     keeps_planes ? renderer.finish(frame) : renderer.finish(frame, target);
   };
-  EXPECT_GT(allocations_of(draw), 10) << "the first frame";  // they are counted
+  EXPECT_GT(allocations_of(draw), 10) << "the first frame";  // proves that allocations are counted
   draw();
   before_the_last();
   EXPECT_EQ(allocations_of(draw), 0);
 }
 
-/// Whatever is made on the way: corners of strips, normals, outlines that are clipped, palette entries; with
-/// a camera that moves.
+/// Everything that is built during a frame: strip corners, generated normals, clipped outlines, palette
+/// entries; with a moving camera.
 struct MadeOnTheWay {
   FrameBufferFormat format{.width = 300, .height = 200, .color_mode = ColorMode::index, .color_bits = 8};
   std::vector<MeshData> meshes;
@@ -86,7 +86,7 @@ struct MadeOnTheWay {
   }
 };
 
-/// Small meshes, whose normals any worker may make, and draws that change nothing between them.
+/// Small meshes whose normals any worker may generate, and draws in between that change nothing.
 struct ManySmallMeshes {
   FrameBufferFormat format{.width = 300, .height = 200};
   std::vector<MeshData> meshes;
@@ -120,7 +120,7 @@ TEST(SteadyFrames, AllocateNothing) {
   }
 }
 
-TEST(SteadyFrames, AllocateNothingWhicheverWorkerRuns) {
+TEST(SteadyFrames, AllocateNothingOnAnyWorker) {
   for (const bool keeps_planes : {false, true}) {
     const auto executor = std::make_shared<SingleThreadExecutor>(2);
     expect_steady(ManySmallMeshes(), {.threads = 2, .executor = executor}, keeps_planes,

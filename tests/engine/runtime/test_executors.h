@@ -1,4 +1,4 @@
-// Executors that tests can foresee.
+// Executors with a deterministic order of workers.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,10 @@
 
 namespace tessera::test {
 
-/// Workers that run one after the other on the caller's thread, so that the first of them finds all the
-/// tasks.
+/// Runs the workers in order on the caller's thread, so that the first of them finds all tasks.
 class SingleThreadExecutor : public Executor {
  public:
-  /// @param first  the one that begins, or the last one where there are fewer; those after it follow
+  /// @param first  index of the first worker, clamped to the last one; the others follow cyclically
   explicit SingleThreadExecutor(int count, int first = 0) : count_(count), first_(first) {}
   int workers() const noexcept override { return count_; }
   void run(int count, void (*work)(void*, int), void* context) override {
@@ -22,10 +21,11 @@ class SingleThreadExecutor : public Executor {
   void begin_with(int worker) { first_ = worker; }
 
  private:
-  int count_, first_;
+  int count_;
+  int first_;
 };
 
-/// Threads that are made for each call: the simplest pool there is.
+/// Starts new threads for each call: the simplest thread pool.
 class ThreadPerCallExecutor : public Executor {
  public:
   explicit ThreadPerCallExecutor(int count) : count_(count) {}

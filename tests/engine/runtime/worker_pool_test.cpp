@@ -1,4 +1,4 @@
-// Tasks run once each, on as many workers as were asked for, in the default floating-point mode.
+// Tasks run once each, on the requested number of workers, in the default floating-point mode.
 #include "engine/runtime/worker_pool.h"
 #include "engine/program/threads/thread_limit.h"
 
@@ -22,6 +22,7 @@
 #endif
 
 namespace tessera {
+using namespace detail;
 using namespace program;
 namespace {
 
@@ -34,13 +35,13 @@ TEST(WorkerPool, EightThreadsAreEightDistinctWorkers) {
   const ThreadLimit limit(8);
   WorkerPool worker_pool(8);
   ASSERT_EQ(worker_pool.threads(), 8);
-  int seen = 0;
-  for (int round = 0; round < 50 && seen < 8; ++round) {  // workers need a moment to arrive
+  int workers_seen = 0;
+  for (int round = 0; round < 50 && workers_seen < 8; ++round) {  // workers need a moment to start
     worker_pool.for_each(400, [](std::size_t, int) { spin(std::chrono::microseconds(200)); });
-    seen = worker_pool.distinct_workers_seen();
+    workers_seen = worker_pool.distinct_workers_seen();
   }
-  EXPECT_EQ(seen, 8);
-  EXPECT_EQ(worker_pool.distinct_workers_seen(), 0) << "asking starts the count anew";
+  EXPECT_EQ(workers_seen, 8);
+  EXPECT_EQ(worker_pool.distinct_workers_seen(), 0) << "reading the count resets it";
 }
 
 TEST(WorkerPool, EachTaskRunsOnceForAnyNumberOfThreads) {
@@ -59,7 +60,7 @@ TEST(WorkerPool, EachTaskRunsOnceForAnyNumberOfThreads) {
   }
 }
 
-TEST(WorkerPool, AnotherOrderIsAnother) {
+TEST(WorkerPool, DifferentTaskOrdersDiffer) {
   const auto order_of = [](std::uint32_t order) {
     std::vector<std::size_t> tasks;
     WorkerPool(1, nullptr, order).for_each(100, [&](std::size_t task, int) { tasks.push_back(task); });
@@ -71,7 +72,7 @@ TEST(WorkerPool, AnotherOrderIsAnother) {
   EXPECT_EQ(order_of(2), order_of(2));
 }
 
-TEST(WorkerPool, SharesFollowEachOtherAndAreAsLarge) {
+TEST(WorkerPool, SharesAreContiguousAndOfEqualSize) {
   for (const std::size_t tasks : {1, 2, 7, 12, 1000}) {
     for (const std::size_t shares : {1, 2, 3, 7, 64}) {
       EXPECT_EQ(first_of_share(tasks, shares, 0), 0);
@@ -80,15 +81,16 @@ TEST(WorkerPool, SharesFollowEachOtherAndAreAsLarge) {
         const std::size_t size = first_of_share(tasks, shares, s + 1) - first_of_share(tasks, shares, s);
         EXPECT_TRUE(size == tasks / shares || size == tasks / shares + 1)
             << s << " of " << shares << " shares of " << tasks;
-        EXPECT_LE(size, last) << "the first ones have more";
+        EXPECT_LE(size, last) << "the first shares are the larger ones";
         last = size;
       }
     }
   }
 }
 
-TEST(WorkerPool, AWorkerBeginsWithItsShare) {
-  constexpr std::size_t kTasks = 11, kThreads = 3;
+TEST(WorkerPool, WorkerBeginsWithItsShare) {
+  constexpr std::size_t kTasks = 11;
+  constexpr std::size_t kThreads = 3;
   WorkerPool worker_pool(kThreads, std::make_shared<test::ThreadPerCallExecutor>(kThreads));
   for (int round = 0; round < 20; ++round) {
     std::vector<std::size_t> first(kThreads, kTasks);
@@ -100,13 +102,13 @@ TEST(WorkerPool, AWorkerBeginsWithItsShare) {
       ++began;
       const auto late = std::chrono::steady_clock::now() + std::chrono::seconds(10);
       while (began != kThreads && std::chrono::steady_clock::now() < late)
-        std::this_thread::yield();  // nobody goes on before all have begun
+        std::this_thread::yield();  // wait until all workers have begun
     });
     ASSERT_EQ(first, (std::vector<std::size_t>{0, 4, 8}));
   }
 }
 
-TEST(WorkerPool, AWorkerGoesOnToWhatIsLeftOfTheNextShares) {
+TEST(WorkerPool, WorkerContinuesWithTheNextShares) {
   WorkerPool worker_pool(3, std::make_shared<test::SingleThreadExecutor>(3, 2));
   EXPECT_EQ(worker_pool.workers_for(11), 3);
   EXPECT_EQ(worker_pool.workers_for(2), 2);
@@ -118,14 +120,15 @@ TEST(WorkerPool, AWorkerGoesOnToWhatIsLeftOfTheNextShares) {
   EXPECT_EQ(tasks, (std::vector<std::size_t>{8, 9, 10, 0, 1, 2, 3, 4, 5, 6, 7}));
 }
 
-// A draw in a progress callback, say, that the renderer helps with: nobody there waits for threads that may
-// wait for that callback.
-TEST(WorkerPool, ATasksCallIsItsThreadsAlone) {
+// For example a draw in a progress callback that uses the renderer's workers: waiting there for threads that
+// may wait for the callback could deadlock.
+TEST(WorkerPool, NestedCallRunsOnItsThreadAlone) {
   constexpr int kRounds = 20;
   for (const int threads : {1, 2, 3, 8}) {
     const ThreadLimit limit(threads);
     WorkerPool worker_pool(threads);
-    std::vector<std::atomic<int>> runs(10), inner_runs(20);
+    std::vector<std::atomic<int>> runs(10);
+    std::vector<std::atomic<int>> inner_runs(20);
     std::atomic<int> elsewhere = 0;
     for (int round = 0; round < kRounds; ++round)
       worker_pool.for_each(runs.size(), [&](std::size_t task, int) {
@@ -146,7 +149,7 @@ TEST(WorkerPool, ATasksCallIsItsThreadsAlone) {
   }
 }
 
-TEST(WorkerPool, AnExceptionInATasksCallReachesTheCaller) {
+TEST(WorkerPool, ExceptionInANestedCallReachesTheCaller) {
   const ThreadLimit limit(3);
   WorkerPool worker_pool(3);
   const auto run = [&] {
@@ -163,7 +166,8 @@ TEST(WorkerPool, NoTwoTasksAtTheSameTimeShareAWorker) {
   const ThreadLimit limit(8);
   WorkerPool worker_pool(8);
   std::vector<std::atomic<int>> busy(8);
-  std::atomic<bool> shared = false, beyond = false;
+  std::atomic<bool> shared = false;
+  std::atomic<bool> beyond = false;
   worker_pool.for_each(2000, [&](std::size_t, int worker) {
     if (worker < 0 || worker >= 8) {
       beyond = true;
@@ -190,7 +194,7 @@ TEST(WorkerPool, OneThreadIsTheCallers) {
   EXPECT_EQ(worker_pool.distinct_workers_seen(), 1);
 }
 
-TEST(WorkerPool, AnExceptionOfATaskReachesTheCaller) {
+TEST(WorkerPool, ExceptionOfATaskReachesTheCaller) {
   const ThreadLimit limit(8);
   for (const int threads : {1, 8}) {
     WorkerPool worker_pool(threads);
@@ -202,7 +206,7 @@ TEST(WorkerPool, AnExceptionOfATaskReachesTheCaller) {
     EXPECT_THROW(run(), std::out_of_range);
     std::atomic<int> after = 0;
     worker_pool.for_each(100, [&](std::size_t, int) { ++after; });
-    EXPECT_EQ(after, 100) << "it works as before";
+    EXPECT_EQ(after, 100) << "the pool still works";
   }
 }
 
@@ -218,17 +222,17 @@ class FailsOnce : public test::SingleThreadExecutor {
   bool has_failed_ = false;
 };
 
-TEST(WorkerPool, WorksAsBeforeAfterItsExecutorHasFailed) {
+TEST(WorkerPool, WorksAfterItsExecutorHasFailed) {
   WorkerPool worker_pool(2, std::make_shared<FailsOnce>());
   std::vector<std::size_t> tasks;
   const auto run = [&] { worker_pool.for_each(5, [&](std::size_t task, int) { tasks.push_back(task); }); };
   EXPECT_THROW(run(), std::length_error);
   run();
   EXPECT_EQ(tasks, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
-  EXPECT_EQ(worker_pool.distinct_workers_seen(), 1) << "as a call that is no task's";
+  EXPECT_EQ(worker_pool.distinct_workers_seen(), 1) << "not treated as a nested call";
 }
 
-TEST(WorkerPool, AThreadCountAboveTheProcessesLimitIsLowered) {
+TEST(WorkerPool, ThreadCountIsLimitedByTheProcess) {
   const ThreadLimit limit(3);
   EXPECT_EQ(WorkerPool(8).threads(), 3);
   EXPECT_EQ(WorkerPool(2).threads(), 2);
@@ -248,8 +252,11 @@ TEST(WorkerPool, SurvivesBeingMoved) {
 
 #if defined(__x86_64__)
 
-constexpr unsigned kDefaultMode = 0x1f80, kFlushToZero = 0x8000, kDenormalsAreZero = 0x40, kRoundUp = 0x4000,
-                   kModeBits = 0xffc0;
+constexpr unsigned kDefaultMode = 0x1f80;
+constexpr unsigned kFlushToZero = 0x8000;
+constexpr unsigned kDenormalsAreZero = 0x40;
+constexpr unsigned kRoundUp = 0x4000;
+constexpr unsigned kModeBits = 0xffc0;
 
 TEST(WorkerPool, TasksRunInTheDefaultFloatingPointMode) {
   const ThreadLimit limit(8);
@@ -266,19 +273,20 @@ TEST(WorkerPool, TasksRunInTheDefaultFloatingPointMode) {
     const unsigned after = _mm_getcsr();
     _mm_setcsr(before);
     EXPECT_EQ(wrong, 0) << threads << " threads";
-    EXPECT_EQ(after & kModeBits, odd & kModeBits) << "the caller's mode is the caller's";
+    EXPECT_EQ(after & kModeBits, odd & kModeBits) << "the caller's mode is unchanged";
   }
 }
 
-TEST(WorkerPool, ATasksCallRunsInTheDefaultFloatingPointModeToo) {
+TEST(WorkerPool, NestedCallsRunInTheDefaultFloatingPointMode) {
   const ThreadLimit limit(3);
   const unsigned odd = kDefaultMode | kFlushToZero | kDenormalsAreZero | kRoundUp;
   for (const int threads : {1, 3}) {
     WorkerPool worker_pool(threads);
-    std::atomic<int> wrong = 0, changed = 0;
+    std::atomic<int> wrong = 0;
+    std::atomic<int> changed = 0;
     worker_pool.for_each(12, [&](std::size_t, int) {
       const unsigned before = _mm_getcsr();
-      _mm_setcsr(odd);  // as a progress callback may have set it
+      _mm_setcsr(odd);  // as a progress callback might set it
       worker_pool.for_each(5, [&](std::size_t, int) {
         if ((_mm_getcsr() & kModeBits) != kDefaultMode) ++wrong;
       });
@@ -286,11 +294,11 @@ TEST(WorkerPool, ATasksCallRunsInTheDefaultFloatingPointModeToo) {
       _mm_setcsr(before);
     });
     EXPECT_EQ(wrong, 0) << threads << " threads";
-    EXPECT_EQ(changed, 0) << "a task's mode is the task's";
+    EXPECT_EQ(changed, 0) << "the task's mode is unchanged";
   }
 }
 
-TEST(WorkerPool, TheFloatingPointModeEndsWithItsScope) {
+TEST(WorkerPool, FloatingPointModeEndsWithItsScope) {
   const unsigned before = _mm_getcsr();
   _mm_setcsr(kDefaultMode | kFlushToZero | kRoundUp);
   volatile float smallest = std::numeric_limits<float>::min();

@@ -1,5 +1,5 @@
-// Frames whose bins would take more memory than is allowed are rendered in parts: the same bits, the same
-// figures.
+// Frames whose bins exceed the memory limit are rendered in several passes: the same bits and the same
+// statistics.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,11 +40,12 @@ std::vector<std::uint64_t> triangle_counts(const FrameStats& s) {
           s.fragments};
 }
 
-/// What a frame leaves behind, and all that it tells of its pixels.
+/// Everything that a frame stores, shows, captures and reports.
 struct Outcome {
   Fingerprint stored;
   std::vector<std::uint8_t> shown;
-  std::vector<std::uint32_t> draw_ids, primitive_ids;
+  std::vector<std::uint32_t> draw_ids;
+  std::vector<std::uint32_t> primitive_ids;
   std::vector<float> normals;
   FrameStats stats;
 };
@@ -79,7 +80,7 @@ void expect_same(const Outcome& found, const Outcome& expected) {
   EXPECT_EQ(expected.stats.bin_passes, 1u);
 }
 
-TEST(BinMemory, FramesInPartsAreTheSameFrames) {
+TEST(BinMemory, FramesInPartsEqualWholeFrames) {
   ThreadLimit limit(4);
   for (const int samples : {1, 4}) {
     FrameBufferFormat format{
@@ -95,7 +96,7 @@ TEST(BinMemory, FramesInPartsAreTheSameFrames) {
   }
 }
 
-TEST(BinMemory, ASingleTileTakesABatchAtATime) {
+TEST(BinMemory, SingleTileProcessesOneBatchAtATime) {
   for (const int samples : {1, 8}) {
     const BinOverflowScene scene({.width = 60, .height = 50, .samples = samples});
     const Outcome whole = render(scene, {.threads = 1, .tile_size = 64});
@@ -109,10 +110,10 @@ TEST(BinMemory, ASingleTileTakesABatchAtATime) {
 
 #if TESSERA_CAN_FAIL_ALLOCATIONS
 
-/// The most bytes that are allocated while a new renderer finishes, twice, a frame of `count` layers, above
-/// those before. The layers share their vertices, and half of them are cut by the near plane: what more of
-/// them take is entries of bins and pieces. No layers: a triangle without area.
-long most_bytes(int count, RendererOptions options, int tile_size) {
+/// Maximum of allocated bytes while a new renderer finishes a frame of `count` layers twice, minus the bytes
+/// before. The layers share their vertices, and half of them are cut by the near plane: additional layers
+/// only take bin entries and derived primitives. `count` 0 draws one triangle without area.
+long peak_bytes(int count, RendererOptions options, int tile_size) {
   MeshData layers;
   layers.positions = {-1, -1, 0, 2, -1, 0, -1, 2, 0, -1, -1, 0.5f, 2, -1, -3, -1, 2, 0.5f};
   for (int i = 0; i < count; ++i) layers.indices.insert(layers.indices.end(), {0, 1, 2, 3, 4, 5});
@@ -131,11 +132,11 @@ long most_bytes(int count, RendererOptions options, int tile_size) {
   return peak_live_bytes - before;
 }
 
-/// Bytes that each batch has without asking the budget (raster/bins.cpp): its first block; after an overflow
-/// the end of a list and its count, and one piece with its attributes.
-constexpr long kUnasked = sizeof(Bins::Block) + 16 + sizeof(DerivedPrimitive) + 64 * sizeof(float);
+/// Bytes of each batch outside the budget (raster/bins.cpp): its first block; after an overflow the end and
+/// the count of a list, and one derived primitive with its attributes.
+constexpr long kUnbudgetedBytes = sizeof(Bins::Block) + 16 + sizeof(DerivedPrimitive) + 64 * sizeof(float);
 
-TEST(BinMemory, IsTheMostThatTheBinsTake) {
+TEST(BinMemory, LimitsTheBytesOfTheBins) {
   ThreadLimit limit(4);
   constexpr int kLayers = 2500;
   constexpr long kBatches = 2 * kLayers / 1024;
@@ -143,23 +144,23 @@ TEST(BinMemory, IsTheMostThatTheBinsTake) {
     for (const int tile_size : {32, 128}) {
       SCOPED_TRACE(std::to_string(threads) + " threads, tiles of " + std::to_string(tile_size));
       const RendererOptions whole{.threads = threads};
-      const long empty = most_bytes(0, whole, tile_size);
-      EXPECT_GT(most_bytes(kLayers, whole, tile_size) - empty, 8 * static_cast<long>(kMinBinMemory))
-          << "a frame that is to be in parts";
-      EXPECT_LE(most_bytes(kLayers, in_parts(whole), tile_size) - empty,
-                static_cast<long>(kMinBinMemory) + kBatches * kUnasked);
+      const long empty = peak_bytes(0, whole, tile_size);
+      EXPECT_GT(peak_bytes(kLayers, whole, tile_size) - empty, 8 * static_cast<long>(kMinBinMemory))
+          << "the frame needs several passes";
+      EXPECT_LE(peak_bytes(kLayers, in_parts(whole), tile_size) - empty,
+                static_cast<long>(kMinBinMemory) + kBatches * kUnbudgetedBytes);
     }
 }
 
-// 16 batches of 4,096 tiles take 16 bytes for each tile's list, and 16 KB for the first blocks.
-TEST(BinMemory, IsTheMostThatManyTilesTake) {
+// 16 batches over 4,096 tiles take 16 bytes for the list of each tile, and 16 KB for the first blocks.
+TEST(BinMemory, LimitsTheBytesOfManyTiles) {
   constexpr int kBatches = 16;
   MeshData triangles;
   triangles.positions = {0, 0, 0, 0.001f, 0, 0, 0, 0.001f, 0};
   for (int i = 0; i < 1024 * kBatches; ++i) triangles.indices.insert(triangles.indices.end(), {0, 1, 2});
   FrameBuffer buffer({.width = 2048, .height = 2048});
   Frame frame(buffer);
-  const auto most = [&](std::size_t bin_memory) {
+  const auto peak_bytes_with = [&](std::size_t bin_memory) {
     Renderer renderer(
         {.tile_size = 32, .bin_memory = bin_memory, .executor = std::make_shared<SingleThreadExecutor>(4)});
     frame.keep({});
@@ -170,26 +171,28 @@ TEST(BinMemory, IsTheMostThatManyTilesTake) {
     renderer.finish(frame);
     return peak_live_bytes - before;
   };
-  const long whole = most(std::size_t{8} << 20), parts = most(kMinBinMemory);
-  EXPECT_GT(whole - parts, kBatches * (16 * 4096 + 16384 - kUnasked) - static_cast<long>(kMinBinMemory));
+  const long whole = peak_bytes_with(std::size_t{8} << 20);
+  const long parts = peak_bytes_with(kMinBinMemory);
+  EXPECT_GT(whole - parts,
+            kBatches * (16 * 4096 + 16384 - kUnbudgetedBytes) - static_cast<long>(kMinBinMemory));
 }
 
 #endif
 
-TEST(BinMemory, MayBeAsMuchAsThereIs) {
+TEST(BinMemory, LimitMayBeTheWholeAddressSpace) {
   const RandomOperations scene({.width = 120, .height = 90});
   EXPECT_EQ(
       render(scene, {.threads = 1, .bin_memory = std::numeric_limits<std::size_t>::max()}).stats.bin_passes,
       1u);
 }
 
-TEST(BinMemory, IsAQuarterOfAGigabyteUnlessSaidOtherwise) {
+TEST(BinMemory, DefaultsToAQuarterOfAGigabyte) {
   EXPECT_EQ(RendererOptions{}.bin_memory, std::size_t{256} << 20);
   EXPECT_EQ(Renderer({.threads = 1}).options().bin_memory, std::size_t{256} << 20);
 }
 
-// What the bins were found to take is forgotten where it was too much.
-TEST(BinMemory, FramesAfterOneInPartsAreWholeIfTheyFit) {
+// A bin size estimate that exceeded the limit is dropped after the frame.
+TEST(BinMemory, FrameThatFitsIsRenderedInOnePassAfterOneInParts) {
   const BinOverflowScene large({.width = 60, .height = 50});
   const MeshData small = rectangle(-1, -1, 1, 1);
   Renderer renderer(in_parts({.threads = 1, .tile_size = 32}));
@@ -203,12 +206,12 @@ TEST(BinMemory, FramesAfterOneInPartsAreWholeIfTheyFit) {
   }
 }
 
-TEST(BinMemory, ALimitThatIsTooSmallIsAnError) {
+TEST(BinMemory, LimitBelowTheMinimumIsAnError) {
   EXPECT_THAT(error_of([] { Renderer renderer({.bin_memory = 1000}); }).value_or(""),
               testing::AllOf(testing::HasSubstr("bin_memory is 1000"), testing::HasSubstr("65536")));
 }
 
-TEST(BinMemory, ProgressRisesToOneThroughTheParts) {
+TEST(BinMemory, ProgressRisesToOneOverAllPasses) {
   const RandomOperations scene({.width = 330, .height = 210});
   double last = 0;
   int calls = 0;

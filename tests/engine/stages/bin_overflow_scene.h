@@ -5,11 +5,13 @@
 
 namespace tessera::test {
 
-/// Triangles, lines and points of which one tile alone has more than the least memory for bins holds; among
-/// them many that are clipped, draws that blend, and a clear in between.
+/// Triangles, lines and points whose entries in a single tile exceed kMinBinMemory; many are clipped, some
+/// draws blend, and a clear lies in between.
 struct BinOverflowScene {
   FrameBufferFormat format;
-  MeshData triangles, lines, points;
+  MeshData triangles;
+  MeshData lines;
+  MeshData points;
   explicit BinOverflowScene(FrameBufferFormat f, int count = 9000) : format(std::move(f)) {
     Random random(3);
     for (MeshData* mesh : {&triangles, &lines, &points}) {
