@@ -1,4 +1,4 @@
-// How fast this machine moves bytes: what fills, clears and plane stores are held against.
+// Memory bandwidth of this machine: the rooflines of fills, clears and plane stores.
 #pragma once
 
 #include <cstdint>
@@ -10,24 +10,23 @@
 namespace tessera::bench {
 using namespace detail;
 
-/// Moves bytes as fast as the C library does: each thread its share of a memory, a byte at least, again and
-/// again.
+/// Moves bytes at the speed of the C library: each thread repeatedly passes over its share of a memory block.
 class BandwidthKernel {
  public:
-  /// @param roofline   not none
-  /// @param threads 1 or more
-  /// @param bytes   of the memory, of all threads together (of copies, what is read and what is written);
-  /// stores in L1 have 16 KiB for each thread, whatever stands here
-  /// @param moved   by a run(), about: the memory, once at least and a million times at most; stores in L1
-  /// move theirs 20,000 times
+  /// @param roofline  not Roofline::none
+  /// @param threads   1 or more
+  /// @param bytes     size of the memory of all threads together; for copies, source plus destination.
+  ///                  Each thread gets at least one byte. Roofline::l1_stores ignores it: 16 KiB per thread
+  /// @param moved     approximate bytes per run(): the memory at least once, at most a million times.
+  ///                  Roofline::l1_stores ignores it: 20,000 times
   BandwidthKernel(Roofline roofline, int threads, std::uint64_t bytes, std::uint64_t moved);
 
   void run();
-  /// That a run() moves.
+  /// Bytes that one run() moves.
   double bytes() const;
 
  private:
-  /// Of a cache whose lines have 64 bytes; no two threads write to one.
+  /// One cache line, so that no two threads write to the same one.
   struct alignas(64) Line {
     std::uint8_t bytes[64];
   };
@@ -35,20 +34,20 @@ class BandwidthKernel {
   void move(std::size_t part, int turn);
 
   Roofline roofline_;
-  std::size_t share_;  // bytes of each thread
-  std::uint64_t times_;
+  std::size_t share_bytes_;  // per thread
+  std::uint64_t passes_;     // per run()
   WorkerPool worker_pool_;
-  std::vector<Lines> memory_, copies_;  // of each thread
+  std::vector<Lines> memory_;  // per thread
+  std::vector<Lines> copies_;  // per thread; copies only
 };
 
-/// What a frame's work is held against.
-/// @pre there is a roofline
+/// The kernel for a frame's roofline.
+/// @pre work.roofline is not Roofline::none
 BandwidthKernel bandwidth_kernel_for(const FrameWork& work, int threads, std::uint64_t moved);
 
-/// In 10^9 bytes a second, of all threads together: the median of several runs.
-///
-/// @param roofline  not none
-/// @param bytes  of the memory, as of BandwidthKernel
+/// Rate of all threads together in 10^9 bytes/s: the median of several runs.
+/// @param roofline  not Roofline::none
+/// @param bytes     as in BandwidthKernel
 double measure_bandwidth(Roofline roofline, int threads, std::uint64_t bytes);
 
 }  // namespace tessera::bench

@@ -39,28 +39,28 @@ bool BaselineRun::has_any_of(std::span<const WorkloadEntry* const> entries) cons
 
 void BaselineRun::require_size(int width, int height) const {
   if (width != width_ || height != height_)
-    throw Error(formatted("%s: found frames of %dx%d, expected %dx%d, as they are now", file_.c_str(), width_,
+    throw Error(formatted("%s: frames are %dx%d, expected %dx%d, the size of this run", file_.c_str(), width_,
                           height_, width, height));
 }
 
 BaselineComparison BaselineRun::compare(const Report& now, double allowed) const {
   BaselineComparison comparison;
   if (setting_ != setting_text(now))
-    comparison.table =
-        "not the same setting: " + setting_ + " in " + file_ + ", now " + setting_text(now) + "\n";
-  const nlohmann::ordered_json is = report_json(now);
+    comparison.table = "settings differ: " + setting_ + " in " + file_ + ", now " + setting_text(now) + "\n";
+  const nlohmann::ordered_json report = report_json(now);
   for (const char* path : {"/tile_size", "/seed", "/kept_on_cores", "/machine/CPU", "/machine/compiler"}) {
     const nlohmann::ordered_json::json_pointer at(path);
-    if (report_.contains(at) && is.contains(at) && report_[at] != is[at])
-      comparison.table += "not the same " + at.back() + ": " + report_[at].dump() + " in " + file_ +
-                          ", now " + is[at].dump() + "\n";
+    const bool has_both = report_.contains(at) && report.contains(at);
+    if (has_both && report_[at] != report[at])
+      comparison.table += at.back() + " differs: " + report_[at].dump() + " in " + file_ + ", now " +
+                          report[at].dump() + "\n";
   }
   comparison.table +=
       formatted("%-22s %12s %12s %12s\n", "workload", "earlier, ms", "now, ms", "earlier/now");
-  std::map<std::string, double> only_then = medians_;
+  std::map<std::string, double> only_earlier = medians_;
   for (const Row& row : now.rows) {
     const auto found = medians_.find(row.name);
-    only_then.erase(row.name);
+    only_earlier.erase(row.name);
     if (found == medians_.end() || row.frames == 0) {
       comparison.table += row.name + ": " + (row.frames == 0 ? "not measured now" : "not in " + file_) + "\n";
       continue;
@@ -68,10 +68,10 @@ BaselineComparison BaselineRun::compare(const Report& now, double allowed) const
     const double earlier = found->second;
     const bool has_regressed = row.ms.median > earlier * (1 + allowed);
     comparison.table += formatted("%-22s %12.3f %12.3f %12.3f%s\n", row.name.c_str(), earlier, row.ms.median,
-                                  earlier / row.ms.median, has_regressed ? "  worse" : "");
+                                  earlier / row.ms.median, has_regressed ? "  slower" : "");
     comparison.has_regressed |= has_regressed;
   }
-  for (const auto& [name, median] : only_then) comparison.table += name + ": only in " + file_ + "\n";
+  for (const auto& [name, median] : only_earlier) comparison.table += name + ": only in " + file_ + "\n";
   return comparison;
 }
 

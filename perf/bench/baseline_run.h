@@ -1,4 +1,4 @@
-// An earlier run beside this one.
+// Comparison with an earlier run.
 #pragma once
 
 #include <map>
@@ -11,29 +11,30 @@ namespace tessera::bench {
 
 struct BaselineComparison {
   std::string table;           ///< ratios of medians, earlier to now: above 1 is faster
-  bool has_regressed = false;  ///< in a row by more than was allowed
+  bool has_regressed = false;  ///< whether a row is slower by more than the allowed share
 };
 
 class BaselineRun {
  public:
-  /// @param file  what --json wrote then. @throws Error where it is no such report
+  /// @param file  written by --json
+  /// @throws Error if it is not such a report
   explicit BaselineRun(const std::string& file);
-  /// Whether it has any of these workloads: else there is nothing to compare.
+  /// Whether the report has any of these workloads.
   bool has_any_of(std::span<const WorkloadEntry* const> entries) const;
-  /// @throws Error where its frames, in pixels, were of another size: what they cost says nothing of these
+  /// @throws Error if the report's frames have another size in pixels; their times cannot be compared
   void require_size(int width, int height) const;
-  /// Rows without a counterpart are left out, and named, and so is what else is not as it was: threads,
-  /// instruction set; tile size, seed, cores, machine and compiler, if the file tells.
+  /// Compares medians. Names rows without a counterpart, and settings that differ: threads and instruction
+  /// set, and, if the file has them, tile size, seed, cores, CPU and compiler.
   ///
-  /// @param allowed  share by which a median may be longer, 0.05: 5 %
+  /// @param allowed  share by which a median may be longer; 0.05 is 5 %
   BaselineComparison compare(const Report& now, double allowed) const;
 
  private:
   std::string file_;
   int width_ = 0, height_ = 0;
-  std::string setting_;  // as setting_text() has it
+  std::string setting_;  // see setting_text()
   nlohmann::ordered_json report_;
-  std::map<std::string, double> medians_;  // by the workload's name, in ms
+  std::map<std::string, double> medians_;  // ms, by workload name
 };
 
 }  // namespace tessera::bench

@@ -1,4 +1,4 @@
-# bin/tessera-bench, which `tessera bench` starts. Included by the project's CMakeLists.txt where the program is built.
+# bin/tessera-bench, which `tessera bench` executes. Included by CMakeLists.txt if the program is built.
 file(GLOB tessera_bench_sources CONFIGURE_DEPENDS perf/bench/*.cpp)
 list(FILTER tessera_bench_sources EXCLUDE REGEX "/(main|no_mesa)\\.cpp$")
 find_path(TESSERA_OSMESA_INCLUDE GL/osmesa.h)
@@ -6,12 +6,12 @@ mark_as_advanced(TESSERA_OSMESA_INCLUDE)
 if(TESSERA_OSMESA_INCLUDE)
   list(APPEND tessera_bench_sources perf/rivals/mesa_workload.cpp perf/rivals/mesa_functions.cpp)
 else()
-  message(STATUS "GL/osmesa.h not found: tessera bench has no rivals")
+  message(STATUS "GL/osmesa.h not found: tessera bench is built without --rivals")
   list(APPEND tessera_bench_sources perf/bench/no_mesa.cpp)
 endif()
 list(APPEND tessera_bench_sources perf/rivals/literal_shaders.cpp)
 add_library(tessera_bench_parts OBJECT ${tessera_bench_sources})
-# What the library does not show: its threads, and the way into planes.
+# Internals that the library does not export: the worker pool and plane stores.
 tessera_add_objects(tessera_bench_internals engine/runtime/worker_pool.cpp framebuffer/bit_transpose.cpp framebuffer/bitplane.cpp framebuffer/prefetch_lines.cpp framebuffer/instruction_set.cpp)
 add_executable(tessera_bench perf/bench/main.cpp engine/program/cli/machine_text.cpp $<TARGET_OBJECTS:tessera_bench_internals> $<TARGET_OBJECTS:tessera_bench_parts>)
 foreach(target tessera_bench_parts tessera_bench)

@@ -22,8 +22,8 @@ MeshData window_grid(int columns, int rows, float depth, float waves, float text
   MeshData mesh;
   for (int y = 0; y <= rows; ++y)
     for (int x = 0; x <= columns; ++x) {
-      const float u = static_cast<float>(x) / static_cast<float>(columns),
-                  v = static_cast<float>(y) / static_cast<float>(rows);
+      const float u = static_cast<float>(x) / static_cast<float>(columns);
+      const float v = static_cast<float>(y) / static_cast<float>(rows);
       mesh.positions.insert(mesh.positions.end(),
                             {2 * u - 1, 2 * v - 1, depth + waves * std::sin(20 * u) * std::cos(17 * v)});
       mesh.colors.insert(mesh.colors.end(), {u, v, 1 - u, 1});
@@ -37,10 +37,11 @@ MeshData sphere(int columns, int rows, float radius) {
   MeshData mesh;
   for (int y = 0; y <= rows; ++y)
     for (int x = 0; x <= columns; ++x) {
-      const float around =
-                      2 * std::numbers::pi_v<float> * static_cast<float>(x) / static_cast<float>(columns),
-                  up = std::numbers::pi_v<float> * static_cast<float>(y) / static_cast<float>(rows);
-      const float n[3] = {std::cos(around) * std::sin(up), -std::cos(up), -std::sin(around) * std::sin(up)};
+      const float longitude =
+          2 * std::numbers::pi_v<float> * static_cast<float>(x) / static_cast<float>(columns);
+      const float polar = std::numbers::pi_v<float> * static_cast<float>(y) / static_cast<float>(rows);
+      const float n[3] = {std::cos(longitude) * std::sin(polar), -std::cos(polar),
+                          -std::sin(longitude) * std::sin(polar)};
       mesh.positions.insert(mesh.positions.end(), {radius * n[0], radius * n[1], radius * n[2]});
       mesh.normals.insert(mesh.normals.end(), {n[0], n[1], n[2]});
     }

@@ -1,4 +1,4 @@
-// The meshes of the workloads: grids that fill the window, and spheres.
+// Meshes of the workloads: full-window grids and spheres.
 #pragma once
 
 #include <span>
@@ -8,18 +8,19 @@
 namespace tessera::bench {
 using namespace program;
 
-/// columns * rows squares of two triangles each, from -1 to 1 in x and y: in clip space the whole window.
-/// Colours run across it, texture coordinates from 0 to `texture_repeats`.
+/// Grid of columns x rows squares, two triangles each, from -1 to 1 in x and y: the whole window in clip
+/// space.
+/// - Colours run from 0 to 1 across the window, texture coordinates from 0 to `texture_repeats`.
 ///
-/// @param depth   of all vertices, -1 .. 1
-/// @param waves   how far depths leave that
+/// @param depth  z of all vertices, -1 to 1
+/// @param waves  amplitude of a wave added to z
 MeshData window_grid(int columns, int rows, float depth = 0, float waves = 0, float texture_repeats = 1);
 
-/// 2 * columns * rows triangles (those at the poles without an area), counter-clockwise from outside, with
-/// unit normals.
+/// 2 * columns * rows triangles with unit normals, counter-clockwise from outside. Those at the poles are
+/// degenerate.
 MeshData sphere(int columns, int rows, float radius);
 
-/// Indexed meshes of the same attributes as one.
+/// Concatenates indexed meshes that have the same attributes.
 MeshData merged(std::span<const MeshData> meshes);
 
 }  // namespace tessera::bench

@@ -1,4 +1,4 @@
-// What `tessera bench` is asked for.
+// Command line of `tessera bench`.
 #pragma once
 
 #include <string>
@@ -13,25 +13,27 @@
 namespace tessera::bench {
 
 struct BenchOptions {
-  std::vector<std::string> names{};  ///< or their beginnings; empty: all
+  std::vector<std::string> names{};  ///< workload names or prefixes; empty: all
   bool list = false;
   int width = 1920, height = 1080;  ///< pixels
   RendererOptions renderer{};
-  std::vector<int> cores{};  ///< that the process is kept on; empty: all it may use
+  std::vector<int> cores{};  ///< logical CPUs to bind the process to; empty: all allowed ones
   MeasureOptions measure{};
-  bool rivals = false;  ///< draw the same in turns
+  bool rivals = false;  ///< compare with Mesa
   rivals::MesaDriver driver = rivals::MesaDriver::llvmpipe;
-  bool scaling = false;  ///< on 1 thread and more, instead of rates
-  int memory_cores = 8;  ///< that copy all that the memory of computed machines does
+  bool scaling = false;  ///< measure and predict speed-ups instead of rates
+  int memory_cores = 8;  ///< cores that saturate memory bandwidth in the model of many cores
   std::string growth_file{};
-  std::string trace_file{}, heatmap_file{};
-  std::string json_file{}, csv_file{};  ///< "-": the standard output
+  std::string trace_file{};
+  std::string heatmap_file{};
+  std::string json_file{};  ///< "-": standard output
+  std::string csv_file{};   ///< "-": standard output
   std::string compare_file{};
-  std::string pictures_folder{};  ///< empty: none are written
-  double allowed = 0.1;           ///< share by which a row may be slower than in that file
+  std::string pictures_folder{};  ///< empty: no pictures are written
+  double allowed = 0.1;           ///< share by which a row may be slower than in `compare_file`
 };
 
-/// What the command line has, into `options`, which has to live as long as the program.
+/// Adds the options to `program`. Parsing writes to `options`, which must outlive `program`.
 void add_options(CLI::App& program, BenchOptions& options);
 
 }  // namespace tessera::bench

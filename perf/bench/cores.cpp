@@ -15,7 +15,7 @@
 namespace tessera::bench {
 namespace {
 
-/// Between two looks at a line: else they keep it from the core that wants to write it.
+/// Spin-wait hint: without it, reads delay the core that tries to write the line.
 void pause() {
 #if defined(__x86_64__)
   _mm_pause();
@@ -24,7 +24,7 @@ void pause() {
 #endif
 }
 
-/// Waits for `turn` and gives it to the other, again and again.
+/// Repeatedly waits until `turn` is `mine` and hands it to the other thread.
 void ping_pong(std::atomic<int>& turn, int mine, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     while (turn.load() != mine) pause();
@@ -32,16 +32,17 @@ void ping_pong(std::atomic<int>& turn, int mine, int rounds) {
   }
 }
 
-/// NaN if the system did not keep both threads apart.
+/// Returns NaN if the threads could not be bound to the two cores.
 double handoff_ns(int first_core, int second_core) {
   constexpr int kRounds = 5000;
-  std::atomic<int> turn{0}, ready{0};
-  std::atomic<bool> are_apart{true};
+  std::atomic<int> turn{0};
+  std::atomic<int> ready{0};
+  std::atomic<bool> are_bound{true};
   double ns = std::numeric_limits<double>::quiet_NaN();
   const auto play = [&](int mine, int core) {
-    if (!set_thread_affinity({&core, 1})) are_apart = false;
-    for (++ready; ready.load() < 2 && are_apart;) std::this_thread::yield();
-    if (!are_apart) return;
+    if (!set_thread_affinity({&core, 1})) are_bound = false;
+    for (++ready; ready.load() < 2 && are_bound;) std::this_thread::yield();
+    if (!are_bound) return;
     const auto start = std::chrono::steady_clock::now();
     ping_pong(turn, mine, kRounds);
     if (mine == 0)
@@ -53,7 +54,7 @@ double handoff_ns(int first_core, int second_core) {
     try {
       const std::jthread second([&] { play(1, second_core); });
     } catch (...) {
-      are_apart = false;
+      are_bound = false;  // releases the first thread
       throw;
     }
   }
@@ -83,9 +84,9 @@ double core_to_core_ns() {
   constexpr int kRuns = 9;
   const std::vector<int> cores = allowed_cores();
   if (cores.size() < 2) return 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (int run = 0; run < kRuns; ++run) least = std::fmin(least, handoff_ns(cores[0], cores[1]));
-  return std::isfinite(least) ? least : 0;
+  double min_ns = std::numeric_limits<double>::infinity();
+  for (int run = 0; run < kRuns; ++run) min_ns = std::fmin(min_ns, handoff_ns(cores[0], cores[1]));
+  return std::isfinite(min_ns) ? min_ns : 0;
 }
 
 }  // namespace tessera::bench

@@ -12,7 +12,7 @@ int open_counter(std::uint64_t config) {
   attributes.type = PERF_TYPE_HARDWARE;
   attributes.size = sizeof attributes;
   attributes.config = config;
-  attributes.inherit = 1;  // threads are started later
+  attributes.inherit = 1;  // to threads that are started later
   attributes.exclude_kernel = 1;
   attributes.exclude_hv = 1;
   return static_cast<int>(::syscall(SYS_perf_event_open, &attributes, 0, -1, -1, PERF_FLAG_FD_CLOEXEC));
@@ -36,8 +36,8 @@ HardwareCounters::~HardwareCounters() {
 }
 
 std::optional<HardwareCounters::Counts> HardwareCounters::read() const {
-  const std::optional<std::uint64_t> cycles = read_counter(cycles_),
-                                     instructions = read_counter(instructions_);
+  const std::optional<std::uint64_t> cycles = read_counter(cycles_);
+  const std::optional<std::uint64_t> instructions = read_counter(instructions_);
   if (!cycles || !instructions) return std::nullopt;
   return Counts{*cycles, *instructions};
 }

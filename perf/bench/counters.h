@@ -1,4 +1,4 @@
-// What the processor counts, where the kernel lets this process see it.
+// Hardware performance counters, where the kernel permits them.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace tessera::bench {
 
-/// Of this process and all threads that it starts later on, in user mode.
+/// Counts user-mode events of this thread and of all threads that it starts later.
 class HardwareCounters {
  public:
   HardwareCounters();
@@ -15,13 +15,15 @@ class HardwareCounters {
   HardwareCounters& operator=(const HardwareCounters&) = delete;
 
   struct Counts {
-    std::uint64_t cycles = 0, instructions = 0;
+    std::uint64_t cycles = 0;
+    std::uint64_t instructions = 0;
   };
-  /// Since the start; absent where there are no counters.
+  /// Counts since construction; std::nullopt if the counters are not available.
   std::optional<Counts> read() const;
 
  private:
-  int cycles_ = -1, instructions_ = -1;
+  int cycles_ = -1;
+  int instructions_ = -1;
 };
 
 }  // namespace tessera::bench

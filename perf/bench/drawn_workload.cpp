@@ -15,7 +15,7 @@ RendererOptions options_for(const Drawing& drawing, RendererOptions options) {
   return options;
 }
 
-/// A renderer with a buffer of its own for a drawing.
+/// Renderer, frame buffer and image of one drawing.
 class DrawingRenderer {
  public:
   DrawingRenderer(const Drawing& drawing, const RendererOptions& options)
@@ -24,8 +24,8 @@ class DrawingRenderer {
         buffer_(drawing.format),
         frame_(buffer_, renderer_),
         picture_(drawing.format.width, drawing.format.height) {
-    if (!drawing.before) return;
-    drawing.before(drawing, frame_);
+    if (!drawing.initial_frame) return;
+    drawing.initial_frame(drawing, frame_);
     renderer_.finish(frame_);
   }
 
@@ -42,10 +42,10 @@ class DrawingRenderer {
     if (drawing_.stores_planes) buffer_.read_color(picture_.target());
     return picture_;
   }
-  /// What a frame moves of planes and of the image.
+  /// Bytes of planes and image that a frame loads or stores.
   std::uint64_t traffic_bytes() const {
-    return (drawing_.stores_planes || drawing_.before ? plane_bytes() : 0) +
-           (drawing_.stores_planes ? 0 : picture_.rgba.size());
+    const bool uses_planes = drawing_.stores_planes || drawing_.initial_frame;
+    return (uses_planes ? plane_bytes() : 0) + (drawing_.stores_planes ? 0 : picture_.rgba.size());
   }
   std::uint64_t frame_buffer_bytes() const { return plane_bytes() + picture_.rgba.size(); }
 
@@ -82,20 +82,19 @@ class DrawnWorkload : public Workload {
     const Picture& picture = drawing_renderer_->picture();
     if (drawing_.fault)
       if (std::string fault = drawing_.fault(picture); !fault.empty()) return fault;
-    // The scalar kernels' bits; and the scalar kernels, which would only repeat themselves, have to have
-    // those of the best others.
-    RendererOptions others = options_;
-    others.instruction_set = options_.instruction_set == InstructionSet::scalar ? InstructionSet::automatic
-                                                                                : InstructionSet::scalar;
-    DrawingRenderer reference(drawing_, others);
+    // Compare with the scalar kernels; scalar kernels with those of the best instruction set.
+    const bool is_scalar = options_.instruction_set == InstructionSet::scalar;
+    RendererOptions reference_options = options_;
+    reference_options.instruction_set = is_scalar ? InstructionSet::automatic : InstructionSet::scalar;
+    DrawingRenderer reference(drawing_, reference_options);
     reference.draw_for_validation();
     const Picture& expected = reference.picture();
     const auto found = std::mismatch(picture.rgba.begin(), picture.rgba.end(), expected.rgba.begin()).first;
     if (found == picture.rgba.end()) return {};
-    const auto at = static_cast<std::size_t>(found - picture.rgba.begin()) / 4,
-               width = static_cast<std::size_t>(picture.width);
-    return "pixel " + std::to_string(at % width) + " of row " + std::to_string(at / width) +
-           " is not as the kernels of another instruction set have it";
+    const auto pixel = static_cast<std::size_t>(found - picture.rgba.begin()) / 4;
+    const auto width = static_cast<std::size_t>(picture.width);
+    return "pixel " + std::to_string(pixel % width) + " of row " + std::to_string(pixel / width) +
+           " differs from that of another instruction set";
   }
 
   const Picture& picture() override { return drawing_renderer_->picture(); }
@@ -106,8 +105,8 @@ class DrawnWorkload : public Workload {
     work.triangles = stats.triangles_in;
     work.vertices = stats.vertices;
     work.fragments = drawing_.tested_fragments != 0 ? drawing_.tested_fragments : stats.shaded_pixels;
-    work.bytes = drawing_renderer_->traffic_bytes();  // and meshes are read once
-    for (const MeshData& mesh : drawing_.meshes)
+    work.bytes = drawing_renderer_->traffic_bytes();
+    for (const MeshData& mesh : drawing_.meshes)  // read once per frame
       work.bytes += 4 * (mesh.positions.size() + mesh.normals.size() + mesh.colors.size() +
                          mesh.texcoords.size() + mesh.indices.size());
     work.roofline = drawing_.roofline;
@@ -123,9 +122,7 @@ class DrawnWorkload : public Workload {
 
  private:
   DrawingRenderer& drawing_renderer() {
-    if (!drawing_renderer_)
-      drawing_renderer_.emplace(drawing_,
-                                options_);  // with the first frame, whose time is that of a cold start
+    if (!drawing_renderer_) drawing_renderer_.emplace(drawing_, options_);  // counts as part of a cold start
     return *drawing_renderer_;
   }
 
@@ -136,8 +133,8 @@ class DrawnWorkload : public Workload {
 
 }  // namespace
 
-WorkloadEntry drawn(const std::string& name, const std::string& what, MakeDrawing make) {
-  WorkloadEntry entry{.name = name, .what = what};
+WorkloadEntry drawn(const std::string& name, const std::string& description, MakeDrawing make) {
+  WorkloadEntry entry{.name = name, .description = description};
   entry.make = [make](const WorkloadSetup& setup) {
     return std::make_unique<DrawnWorkload>(make(setup.width, setup.height, setup.seed), setup.options);
   };
@@ -148,8 +145,8 @@ WorkloadEntry drawn(const std::string& name, const std::string& what, MakeDrawin
   return entry;
 }
 
-WorkloadEntry drawn_outside_mean(const std::string& name, const std::string& what, MakeDrawing make) {
-  WorkloadEntry entry = drawn(name, what, std::move(make));
+WorkloadEntry drawn_outside_mean(const std::string& name, const std::string& description, MakeDrawing make) {
+  WorkloadEntry entry = drawn(name, description, std::move(make));
   entry.is_in_mean = false;
   return entry;
 }

@@ -1,4 +1,4 @@
-// 16 layers over the whole window, two triangles each, in every way that a fragment may go.
+// 16 layers over the whole window, two triangles each, one workload per fragment path.
 #include "perf/bench/fill_workloads.h"
 
 #include <cmath>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kLayers = 16;
 constexpr int kTextureSize = 256;
-constexpr float kMagnifiedTexelsPerPixel =
-    0.7013f;  // texels a pixel: no centre is on a border between two, in whatever size
+// Irregular, so that no pixel centre lies on a texel border at any frame size.
+constexpr float kMagnifiedTexelsPerPixel = 0.7013f;
 
 using rivals::Varying;
 
@@ -24,7 +24,7 @@ std::uint64_t area(int width, int height) {
   return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
-/// Layers that come nearer, 1/20 each, from a depth of 0.9 on.
+/// Layers from back to front: window depth 0.9, 0.85, ...
 Drawing layers(int width, int height, float texture_repeats, const ChangeLayer& change) {
   Drawing drawing;
   drawing.format = {.width = width, .height = height, .stencil_bits = 0};
@@ -33,7 +33,7 @@ Drawing layers(int width, int height, float texture_repeats, const ChangeLayer& 
   drawing.immediate_shading = true;
   drawing.fragments = kLayers * area(width, height);
   drawing.roofline = Roofline::tile_stores;
-  drawing.pixel_bytes = 4;  // of colour, or of depth where that is all
+  drawing.pixel_bytes = 4;  // colour, or depth if nothing else is written
   drawing.roofline_bytes = drawing.pixel_bytes * drawing.fragments;
   drawing.record = [change](const Drawing& d, Frame& frame) {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
@@ -49,56 +49,56 @@ Drawing layers(int width, int height, float texture_repeats, const ChangeLayer& 
   return drawing;
 }
 
-/// Depth, or a stencil, beside colour.
+/// Counts depth or stencil stores in addition to colour.
 void add_depth_or_stencil_store(Drawing& drawing) {
   drawing.pixel_bytes *= 2;
   drawing.roofline_bytes *= 2;
 }
 
-/// @param change  of what all layers have
+/// All layers as one mesh. `change` adjusts the state that they share.
 std::function<GlWorkload(const Drawing&)> as_gl_workload(Varying varying, const Color& color,
                                                          std::function<void(GlWorkload&)> change = {}) {
   return [=](const Drawing& drawing) {
-    GlWorkload form;
-    form.mesh = merged(drawing.meshes);
-    if (varying != Varying::colors) form.mesh.colors.clear();
-    if (varying != Varying::texcoords) form.mesh.texcoords.clear();
-    form.shaders = rivals::window_shaders(varying, color);
-    if (change) change(form);
-    return form;
+    GlWorkload gl;
+    gl.mesh = merged(drawing.meshes);
+    if (varying != Varying::colors) gl.mesh.colors.clear();
+    if (varying != Varying::texcoords) gl.mesh.texcoords.clear();
+    gl.shaders = rivals::window_shaders(varying, color);
+    if (change) change(gl);
+    return gl;
   };
 }
 
+/// Check that every pixel has this colour.
 std::function<std::string(const Picture&)> all_of(int r, int g, int b) {
   return [=](const Picture& picture) {
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
       if (picture.rgba[i] != r || picture.rgba[i + 1] != g || picture.rgba[i + 2] != b)
-        return std::string("a pixel does not have the last layer's colour");
+        return std::string("a pixel does not have the colour of the last layer");
     return std::string();
   };
 }
 
-/// In one colour, without those of the vertices.
+/// One colour per layer, without vertex colours.
 Drawing flat_layers(int width, int height) {
   Drawing drawing = layers(width, height, 1, [](int k, DrawState& state) {
     state.material.diffuse = {1, 128 / 255.0f, static_cast<float>(k) / 255, 1};
   });
   for (MeshData& mesh : drawing.meshes) mesh.colors.clear();
-  drawing.gl_workload = as_gl_workload(
-      Varying::nothing,
-      {1, 128 / 255.0f, (kLayers - 1) / 255.0f, 1});  // what is seen in the end: one colour is fastest
+  // The rival draws all layers in the final colour: a single constant is fastest.
+  drawing.gl_workload = as_gl_workload(Varying::nothing, {1, 128 / 255.0f, (kLayers - 1) / 255.0f, 1});
   drawing.fault = all_of(255, 128, kLayers - 1);
   return drawing;
 }
 
-// Colours run from 0 at the left and the bottom to 1: what a pixel's centre has is known without an
-// interpolator.
+// Colours run from 0 at the left and bottom edge to 1, so the colour of every pixel centre has a closed form.
 std::string colors_across(const Picture& picture) {
   const std::uint8_t* pixel = picture.rgba.data();
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x, pixel += 4) {
-      const double u = (x + 0.5) / picture.width, v = 1 - (y + 0.5) / picture.height,
-                   expected[] = {u, v, 1 - u};
+      const double u = (x + 0.5) / picture.width;
+      const double v = 1 - (y + 0.5) / picture.height;
+      const double expected[] = {u, v, 1 - u};
       for (int c = 0; c < 3; ++c)
         if (std::abs(pixel[c] - 255 * expected[c]) > 0.51)
           return "pixel " + std::to_string(x) + " of row " + std::to_string(y) +
@@ -118,8 +118,7 @@ Drawing gouraud_layers(int width, int height, const ChangeLayer& change,
 void with_depth(int, DrawState& state) { state.depth.enabled = true; }
 
 Drawing gouraud_depth_layers(int width, int height) {
-  Drawing drawing =
-      gouraud_layers(width, height, with_depth, [](GlWorkload& form) { form.tests_depth = true; });
+  Drawing drawing = gouraud_layers(width, height, with_depth, [](GlWorkload& gl) { gl.tests_depth = true; });
   add_depth_or_stencil_store(drawing);
   return drawing;
 }
@@ -130,7 +129,7 @@ Drawing depth_layers(int width, int height) {
     state.color_mask = {false, false, false, false};
   });
   for (MeshData& mesh : drawing.meshes) mesh.colors.clear();
-  // White wherever the last layer's depth is what is stored.
+  // White wherever the depth of the last layer is stored.
   drawing.reveal = [](const Drawing& d, Frame& frame) {
     frame.draw(d.meshes.back().view(),
                {.material = {.diffuse = {1, 1, 1, 1}}, .lighting = false, .depth = {.test = Compare::equal}});
@@ -140,10 +139,10 @@ Drawing depth_layers(int width, int height) {
   drawing.fault = all_of(255, 255, 255);
   drawing.gl_workload =
       as_gl_workload(Varying::nothing, {1, 1, 1, 1},
-                     [indices = static_cast<int>(drawing.meshes.back().indices.size())](GlWorkload& form) {
-                       form.tests_depth = true;
-                       form.writes_color = false;
-                       form.revealed_indices = indices;
+                     [indices = static_cast<int>(drawing.meshes.back().indices.size())](GlWorkload& gl) {
+                       gl.tests_depth = true;
+                       gl.writes_color = false;
+                       gl.revealed_indices = indices;
                      });
   return drawing;
 }
@@ -152,7 +151,7 @@ Drawing blended_layers(int width, int height) {
   Drawing drawing = layers(width, height, 1, [](int, DrawState& state) { state.blend = BlendState{}; });
   for (MeshData& mesh : drawing.meshes)
     for (std::size_t i = 3; i < mesh.colors.size(); i += 4) mesh.colors[i] = 0.5f;
-  drawing.gl_workload = as_gl_workload(Varying::colors, {}, [](GlWorkload& form) { form.blends = true; });
+  drawing.gl_workload = as_gl_workload(Varying::colors, {}, [](GlWorkload& gl) { gl.blends = true; });
   return drawing;
 }
 
@@ -162,7 +161,7 @@ Drawing stencilled_layers(int width, int height) {
       [](int, DrawState& state) {
         state.stencil = StencilState{.front = {.func = Compare::less, .ref = 0, .zpass = StencilOp::incr}};
       },
-      [](GlWorkload& form) { form.increments_stencil = true; });
+      [](GlWorkload& gl) { gl.increments_stencil = true; });
   drawing.format.stencil_bits = 8;
   add_depth_or_stencil_store(drawing);
   const auto record = drawing.record;
@@ -183,20 +182,20 @@ Drawing textured_layers(int width, int height, const TextureSampler& sampler, fl
   drawing.textures.emplace_back(
       TextureImage{.pixels = texels.data(), .width = kTextureSize, .height = kTextureSize, .channels = 4},
       sampler);
-  drawing.gl_workload = as_gl_workload(Varying::texcoords, {}, [texels, sampler](GlWorkload& form) {
-    form.texture_size = kTextureSize;
-    form.sampler = sampler;
-    form.max_mismatch_share = 0.03;  // the texels are noise: where two of them meet, or two levels, a
-                                     // coordinate's last bits are seen
-    // OpenGL's rows start at the bottom.
+  drawing.gl_workload = as_gl_workload(Varying::texcoords, {}, [texels, sampler](GlWorkload& gl) {
+    gl.texture_size = kTextureSize;
+    gl.sampler = sampler;
+    // The texels are noise: at borders of texels and mipmap levels the last bits of a coordinate are visible.
+    gl.max_mismatch_share = 0.03;
+    // OpenGL's first row is the bottom one.
     for (int y = kTextureSize - 1; y >= 0; --y)
-      form.texels.insert(form.texels.end(), texels.begin() + 4 * kTextureSize * y,
-                         texels.begin() + 4 * kTextureSize * (y + 1));
+      gl.texels.insert(gl.texels.end(), texels.begin() + 4 * kTextureSize * y,
+                       texels.begin() + 4 * kTextureSize * (y + 1));
   });
   return drawing;
 }
 
-/// Only what is seen is textured.
+/// Deferred shading: only visible pixels are textured.
 Drawing hidden_layers(int width, int height) {
   Drawing drawing = textured_layers(width, height, {}, 1.5f);
   drawing = Drawing{
@@ -213,10 +212,10 @@ Drawing hidden_layers(int width, int height) {
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, const std::string& what,
+WorkloadEntry entry(const std::string& name, const std::string& description,
                     std::function<Drawing(int width, int height)> make) {
   return drawn(
-      "fill-" + name, "16 full-screen layers, " + what,
+      "fill-" + name, "16 full-screen layers, " + description,
       [make = std::move(make)](int width, int height, std::uint32_t) { return make(width, height); });
 }
 
@@ -225,30 +224,31 @@ WorkloadEntry entry(const std::string& name, const std::string& what,
 std::vector<WorkloadEntry> fill_workloads() {
   const auto plain = [](int, DrawState&) {};
   return {
-      entry("flat", "one colour each", flat_layers),
+      entry("flat", "one colour per layer", flat_layers),
       entry("gouraud", "colours interpolated", [=](int w, int h) { return gouraud_layers(w, h, plain); }),
       entry("gouraud-z", "colours interpolated, depth tested and written", gouraud_depth_layers),
-      entry("z", "depth alone", depth_layers),
+      entry("z", "depth only", depth_layers),
       entry("blend", "colours interpolated and blended by alpha", blended_layers),
-      entry("stencil", "colours interpolated, stencil tested and counted up", stencilled_layers),
-      entry("nearest", "the nearest texel",
+      entry("stencil", "colours interpolated, stencil tested and incremented", stencilled_layers),
+      entry("nearest", "nearest texel",
             [](int w, int h) {
               return textured_layers(w, h, {.mag = TextureFilter::nearest, .min = TextureFilter::nearest},
                                      kMagnifiedTexelsPerPixel);
             }),
-      entry("bilinear", "four texels mixed",
+      entry("bilinear", "bilinear texture",
             [](int w, int h) {
               return textured_layers(w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear},
                                      kMagnifiedTexelsPerPixel);
             }),
-      entry("trilinear", "eight texels of two sizes mixed",
+      entry("trilinear", "trilinear texture",
             [](int w, int h) {
               return textured_layers(
                   w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear_mipmap_linear}, 1.5f);
             }),
-      drawn_outside_mean("fill-hidden",
-                         "16 full-screen layers, eight texels of two sizes mixed, each hides the one before",
-                         [](int w, int h, std::uint32_t) { return hidden_layers(w, h); }),
+      drawn_outside_mean(
+          "fill-hidden",
+          "16 full-screen layers, trilinear texture, each hides the one before; shading is deferred",
+          [](int w, int h, std::uint32_t) { return hidden_layers(w, h); }),
   };
 }
 

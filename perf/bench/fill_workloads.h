@@ -1,4 +1,4 @@
-// Workloads that fill the window.
+// Workloads that cover the whole window.
 #pragma once
 
 #include <vector>

@@ -15,8 +15,12 @@
 namespace tessera::bench {
 namespace {
 
-constexpr int kWarmUps = 3, kFrames = 9;          // of one workload
-constexpr int kMinTurns = 3, kFramesPerTurn = 2;  // of several
+// measure_task_costs()
+constexpr int kWarmUps = 3;
+constexpr int kFrames = 9;
+// measure_frame_costs()
+constexpr int kMinTurns = 3;
+constexpr int kFramesPerTurn = 2;
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
@@ -37,29 +41,30 @@ WorkloadSetup with_workers(WorkloadSetup setup, const std::shared_ptr<SimulatedW
   return setup;
 }
 
-/// The least that tasks took, and their taking, where workers come one after the other on the caller's
-/// thread.
+/// Minimum times of tasks and their dispatch, with all workers run serially on the calling thread.
 class TaskCosts {
  public:
   TaskCosts(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers)
       : workers_(std::make_shared<WorkersOnCallingThread>(workers)),
         workload_(entry, with_workers(setup, workers_)) {}
 
+  /// @param counts  whether the frame enters the minimum
   void draw(bool counts) {
-    workers_->take_seconds(), workers_->take_calls();
+    workers_->take_seconds();
+    workers_->take_calls();
     TracedFrame frame = workload_.draw();
     frame.dispatch_seconds = workers_->take_seconds() - frame.task_seconds();
     frame.untraced_calls = workers_->take_calls() - passes_of(frame.tasks);
-    const bool has_no_trace =
-        frame.tasks.empty() && min_ && !min_->tasks.empty();  // there was no memory for it
-    if (!counts || has_no_trace) return;
-    if (!min_ || min_->tasks.size() != frame.tasks.size()) min_ = frame;  // bins that grew need fewer passes
+    const bool has_lost_trace = frame.tasks.empty() && min_ && !min_->tasks.empty();  // no memory for it
+    if (!counts || has_lost_trace) return;
+    const bool is_comparable = min_ && min_->tasks.size() == frame.tasks.size();
+    if (!is_comparable) min_ = frame;  // after bins have grown, frames take fewer passes
     min_->dispatch_seconds = std::min(min_->dispatch_seconds, frame.dispatch_seconds);
     for (std::size_t i = 0; i < frame.tasks.size(); ++i)
       if (length(frame.tasks[i]) < length(min_->tasks[i])) min_->tasks[i] = frame.tasks[i];
     min_->seconds = min_->dispatch_seconds + min_->task_seconds();
   }
-  /// @pre one counted
+  /// @pre a counted frame was drawn
   const TracedFrame& min() const { return *min_; }
 
  private:
@@ -68,7 +73,7 @@ class TaskCosts {
   std::optional<TracedFrame> min_;
 };
 
-/// The least of the seconds of a frame in which no worker runs.
+/// Minimum time of a frame outside Executor::run().
 class SerialCosts {
  public:
   SerialCosts(const WorkloadEntry& entry, const WorkloadSetup& setup,
@@ -79,8 +84,8 @@ class SerialCosts {
     workers_->take_seconds();
     const Clock::time_point start = Clock::now();
     workload_->draw();
-    const double rest = seconds_since(start) - workers_->take_seconds();
-    if (counts) min_ = std::min(min_, rest);
+    const double serial = seconds_since(start) - workers_->take_seconds();
+    if (counts) min_ = std::min(min_, serial);
   }
   double min() const { return min_; }
 
@@ -90,21 +95,20 @@ class SerialCosts {
   double min_ = std::numeric_limits<double>::infinity();
 };
 
-/// Of a frame whose work is cut for so many workers.
+/// Costs of a frame that is split for `workers` workers.
 class FrameCosts {
  public:
-  /// @param cores  the first is the caller's
+  /// @param cores  logical CPUs; the calling thread is bound to the first
   FrameCosts(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers,
              const std::vector<int>& cores)
       : tasks_(entry, setup, workers) {
-    tasks_.draw(false);  // may draw more than a frame
-    tasks_.draw(true);   // tells what the rest needs to know
+    tasks_.draw(false);  // may also draw Drawing::initial_frame
+    tasks_.draw(true);   // passes and traffic, for the caller's share
     serial_.emplace(entry, setup, workers_for_serial(workers, cores));
   }
 
   void take_turn() {
-    for (int i = 0; i <= kFramesPerTurn; ++i)
-      tasks_.draw(i > 0);  // after the first one caches are its own again
+    for (int i = 0; i <= kFramesPerTurn; ++i) tasks_.draw(i > 0);  // the first frame warms up the caches
     for (int i = 0; i <= kFramesPerTurn; ++i) serial_->draw(i > 0);
   }
   TracedFrame min() const {
@@ -146,9 +150,9 @@ std::vector<TracedFrame> measure_frame_costs(const WorkloadEntry& entry, const W
                       const Clock::time_point start = Clock::now();
                       for (int turn = 0; turn < kMinTurns || seconds_since(start) < seconds; ++turn)
                         for (const auto& costs : all) costs->take_turn();
-                      std::vector<TracedFrame> least;
-                      for (const auto& costs : all) least.push_back(costs->min());
-                      return least;
+                      std::vector<TracedFrame> minima;
+                      for (const auto& costs : all) minima.push_back(costs->min());
+                      return minima;
                     })
       .get();
 }

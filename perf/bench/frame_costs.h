@@ -1,5 +1,4 @@
-// What a frame's work costs task by task, as if it were cut for many workers: what computed machines do it
-// with.
+// Cost of a frame's work per task, split as for many workers: the input of the model of many cores.
 #pragma once
 
 #include <span>
@@ -9,15 +8,17 @@
 
 namespace tessera::bench {
 
-/// What the work costs, cut for so many workers, when one thread does all of it: of each task and of the
-/// taking of all the least of several frames. (Their taking has them noted, too.)
+/// Cost of the tasks of a frame that is split for `workers` workers, run on one thread. Each task, and the
+/// dispatch of all of them, gets its minimum over several frames. (Dispatch includes recording the trace.)
 TracedFrame measure_task_costs(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers);
-/// For each count of workers, also of what is in no worker's time: the least of several frames that are not
-/// traced, for handing tasks over takes longer than much of it. Of several workers' frames it is measured
-/// with their tasks on another core than the caller's, where there are two that threads can be kept on, while
-/// the caller reads as many bytes as a worker's share of what the frame moves. All of them take turns, so
-/// that a clock that changes meanwhile is all of theirs.
-/// @param seconds  that turns go on for, if there were enough of them
+
+/// The same for each worker count, with the serial time of the frame added: the minimum over several untraced
+/// frames, because recording tasks would take longer than much of it.
+/// - With several workers, the serial time is measured while the tasks run on a core other than the caller's,
+///   if there are two cores that threads can be bound to. Meanwhile the caller reads as many bytes as one
+///   worker's share of the frame's traffic.
+/// - All counts take turns, so that a changing clock affects all of them.
+/// @param seconds  minimum duration of the turns
 std::vector<TracedFrame> measure_frame_costs(const WorkloadEntry& entry, const WorkloadSetup& setup,
                                              std::span<const int> workers, double seconds);
 

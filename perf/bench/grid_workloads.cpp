@@ -1,4 +1,4 @@
-// Gouraud-shaded grids over the whole window, with depth: from one pixel a triangle to a hundred.
+// Gouraud-shaded grids over the whole window, with depth: one to a hundred pixels per triangle.
 #include <algorithm>
 
 #include "perf/bench/bench_meshes.h"
@@ -13,9 +13,8 @@ Drawing grid(int width, int height, int side, int samples = 1) {
   Drawing drawing;
   drawing.format = {.width = width, .height = height, .stencil_bits = 0, .samples = samples};
   drawing.meshes.push_back(window_grid(side, side, 0, 0.3f));
-  if (samples == 1)
-    drawing.fragments = static_cast<std::uint64_t>(width) *
-                        static_cast<std::uint64_t>(height);  // once each, whoever shares an edge
+  if (samples == 1)  // every pixel exactly once, also along shared edges
+    drawing.fragments = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   drawing.record = [](const Drawing& d, Frame& frame) {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     DrawState state;
@@ -24,17 +23,17 @@ Drawing grid(int width, int height, int side, int samples = 1) {
   };
   if (samples == 1)
     drawing.gl_workload = [](const Drawing& d) {
-      GlWorkload form{.mesh = d.meshes.front(),
-                      .shaders = rivals::window_shaders(rivals::Varying::colors),
-                      .tests_depth = true};
-      form.mesh.texcoords.clear();
-      return form;
+      GlWorkload gl{.mesh = d.meshes.front(),
+                    .shaders = rivals::window_shaders(rivals::Varying::colors),
+                    .tests_depth = true};
+      gl.mesh.texcoords.clear();
+      return gl;
     };
   drawing.fault = [](const Picture& picture) {
-    // Red and blue add up to 1 at every vertex.
+    // Red and blue add up to 1 at every vertex, and so in every pixel.
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
       if (const int sum = picture.rgba[i] + picture.rgba[i + 2]; sum < 254 || sum > 256)
-        return std::string("a pixel is left out, or not of the grid's colours");
+        return std::string("a pixel is not covered, or does not have a colour of the grid");
     return std::string();
   };
   return drawing;
@@ -58,10 +57,9 @@ std::vector<WorkloadEntry> grid_workloads() {
           entry("500k", 500, "4 pixels"),
           entry("80k", 200, "26 pixels"),
           entry("20k", 100, "104 pixels"),
-          drawn_outside_mean("grid-20M",
-                             "20,000,000 triangles of a tenth of a pixel, colours interpolated, depth",
+          drawn_outside_mean("grid-20M", "20 M triangles of 0.1 pixels, colours interpolated, depth",
                              [](int w, int h, std::uint32_t) { return grid(w, h, 3162); }),
-          drawn_outside_mean("samples-4", "80k triangles of 26 pixels, 4 samples a pixel",
+          drawn_outside_mean("samples-4", "80k triangles of 26 pixels, 4 samples per pixel",
                              [](int w, int h, std::uint32_t) { return grid(w, h, 200, 4); })};
 }
 

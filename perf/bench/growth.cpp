@@ -41,9 +41,9 @@ std::vector<Step> draws() {
   return steps;
 }
 
-Growth measured(const std::string& of, const std::string& what, const std::vector<Step>& steps,
+Growth measured(const std::string& quantity, const std::string& description, const std::vector<Step>& steps,
                 const WorkloadSetup& setup, const MeasureOptions& options, const HardwareCounters& counters) {
-  Growth growth{.of = of, .what = what, .points = {}};
+  Growth growth{.quantity = quantity, .description = description, .points = {}};
   for (const Step& step : steps) {
     const Candidate candidate{.name = step.entry.name,
                               .make = [&] { return step.entry.make(setup); },
@@ -55,27 +55,32 @@ Growth measured(const std::string& of, const std::string& what, const std::vecto
   return growth;
 }
 
-// A panel of the plot, in units of the picture.
-constexpr double kPanelWidth = 200, kPanelHeight = 150, kLeft = 50, kTop = 30, kPitchX = 270, kPitchY = 215;
+// Layout of the plot in SVG units.
+constexpr double kPanelWidth = 200, kPanelHeight = 150;
+constexpr double kLeft = 50, kTop = 30;
+constexpr double kPitchX = 270, kPitchY = 215;
 
-/// From one power of ten to another.
+/// Logarithmic axis between two powers of ten.
 class LogAxis {
  public:
   LogAxis(const Growth& growth, double GrowthPoint::*value) {
-    double least = INFINITY, most = 0;
+    double min = INFINITY;
+    double max = 0;
     for (const GrowthPoint& point : growth.points) {
-      least = std::min(least, point.*value);
-      most = std::max(most, point.*value);
+      min = std::min(min, point.*value);
+      max = std::max(max, point.*value);
     }
-    first_ = static_cast<int>(std::floor(std::log10(least)));
-    last_ = std::max(static_cast<int>(std::ceil(std::log10(most))), first_ + 1);
+    first_ = static_cast<int>(std::floor(std::log10(min)));
+    last_ = std::max(static_cast<int>(std::ceil(std::log10(max))), first_ + 1);
   }
   int first() const { return first_; }
   int last() const { return last_; }
+  /// 0 at the start of the axis, 1 at its end.
   double at(double value) const { return (std::log10(value) - first_) / (last_ - first_); }
 
  private:
-  int first_, last_;
+  int first_;  // exponents of ten
+  int last_;
 };
 
 std::string label_of(int power) {
@@ -86,7 +91,8 @@ std::string label_of(int power) {
 
 std::string panel(const Growth& growth, double GrowthPoint::*value, const std::string& title, double x0,
                   double y0) {
-  const LogAxis across(growth, &GrowthPoint::count), up(growth, value);
+  const LogAxis across(growth, &GrowthPoint::count);
+  const LogAxis up(growth, value);
   const auto x = [&](double count) { return x0 + kPanelWidth * across.at(count); };
   const auto y = [&](double v) { return y0 + kPanelHeight * (1 - up.at(v)); };
   std::string svg =
@@ -112,21 +118,21 @@ std::string panel(const Growth& growth, double GrowthPoint::*value, const std::s
 
 std::vector<Growth> measure_growth(const WorkloadSetup& setup, const MeasureOptions& options,
                                    const HardwareCounters& counters) {
-  return {measured("triangles", "a grid over the whole window, colours interpolated, depth", triangles(),
-                   setup, options, counters),
-          measured("pixels", "a sphere of 20k triangles under one light, lit at its pixels", pixels(), setup,
+  return {measured("triangles", "a full-screen grid, colours interpolated, depth", triangles(), setup,
                    options, counters),
-          measured("lights", "a sphere of 20k triangles, lit at its pixels by points", lights(), setup,
+          measured("pixels", "a sphere of 20k triangles, lit per pixel by one light", pixels(), setup,
                    options, counters),
-          measured("draws", "patches of 32 triangles side by side, each with a state of its own", draws(),
-                   setup, options, counters)};
+          measured("lights", "a sphere of 20k triangles, lit per pixel by point lights", lights(), setup,
+                   options, counters),
+          measured("draws", "patches of 32 triangles, all with different states", draws(), setup, options,
+                   counters)};
 }
 
 std::string growth_table(const std::vector<Growth>& all) {
   std::string text;
   for (const Growth& growth : all) {
-    text += formatted("\n%s: %s\n%12s %12s %12s %14s\n", growth.of.c_str(), growth.what.c_str(),
-                      growth.of.c_str(), "median ms", "peak MB", "ns more each");
+    text += formatted("\n%s: %s\n%12s %12s %12s %14s\n", growth.quantity.c_str(), growth.description.c_str(),
+                      growth.quantity.c_str(), "median ms", "peak MB", "ns per added");
     const GrowthPoint* before = nullptr;
     for (const GrowthPoint& point : growth.points) {
       text += formatted("%12.0f %12.3f %12.1f", point.count, point.ms, point.megabytes);
@@ -151,8 +157,8 @@ std::string growth_svg(const std::vector<Growth>& all) {
   svg += formatted("<rect width='%.0f' height='%.0f' fill='white'/>\n", width, height);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double x0 = kLeft + kPitchX * static_cast<double>(i);
-    svg += panel(all[i], &GrowthPoint::ms, "ms a frame, by " + all[i].of, x0, kTop);
-    svg += panel(all[i], &GrowthPoint::megabytes, "peak MB, by " + all[i].of, x0, kTop + kPitchY);
+    svg += panel(all[i], &GrowthPoint::ms, "ms per frame, by " + all[i].quantity, x0, kTop);
+    svg += panel(all[i], &GrowthPoint::megabytes, "peak MB, by " + all[i].quantity, x0, kTop + kPitchY);
   }
   return svg + "</svg>\n";
 }

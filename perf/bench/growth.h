@@ -1,4 +1,4 @@
-// How time and memory grow with what is in a frame: measured, as a table and as a plot.
+// How time and memory grow with the content of a frame: measured, as a table and as a plot.
 #pragma once
 
 #include <cstdint>
@@ -10,25 +10,25 @@
 namespace tessera::bench {
 
 struct GrowthPoint {
-  double count = 0;  ///< of triangles, pixels, lights or draws
+  double count = 0;  ///< triangles, pixels, lights or draws
   double ms = 0;
-  double megabytes = 0;  ///< at the first frame's peak, with meshes, planes and the image
+  double megabytes = 0;  ///< peak up to the end of the first frame: meshes, planes and image included
 };
 
-/// All else is the same.
+/// Frames that differ in one quantity only.
 struct Growth {
-  std::string of;    ///< "triangles", ...
-  std::string what;  ///< the frame, in one line
+  std::string quantity;     ///< "triangles", ...
+  std::string description;  ///< the frame, in one line
   std::vector<GrowthPoint> points;
 };
 
-/// Triangles from 10 k to 20 M, pixels from 64 k to 33 M, lights from 1 to 32, draws from 10 to 10,000.
-/// Throws Error where a picture is wrong.
+/// Measures 10 k to 20 M triangles, 64 k to 33 M pixels, 1 to 32 lights and 10 to 10,000 draws.
+/// @throws Error if a picture is wrong
 std::vector<Growth> measure_growth(const WorkloadSetup& setup, const MeasureOptions& options,
                                    const HardwareCounters& counters);
 
 std::string growth_table(const std::vector<Growth>& all);
-/// Both axes are logarithmic: a straight line that rises by a decade for each is proportional.
+/// Log-log plots: proportional growth is a straight line of slope one decade per decade.
 std::string growth_svg(const std::vector<Growth>& all);
 
 }  // namespace tessera::bench

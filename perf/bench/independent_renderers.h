@@ -1,5 +1,5 @@
-// Two frames at once that share nothing but the machine: where they are not twice as fast as one, it holds
-// two threads back, whatever these share.
+// Two renderers that share nothing but the machine. If they are not twice as fast as one, the limit is the
+// machine (clock, caches, memory), not what the threads of a frame share.
 #pragma once
 
 #include <array>
@@ -13,17 +13,19 @@
 namespace tessera::bench {
 using namespace detail;
 
-/// The same workload twice, on a thread each. What is wrong with one of them is wrong with it; the rest is
-/// the first one's.
+/// The same workload twice, on one thread each. Reports a fault of either; everything else is the first
+/// one's.
 class IndependentRenderers : public Workload {
  public:
-  static constexpr int kFrames =
-      3;  ///< that each of them draws in a draw(), so that little of it is one that waits for the other
-  /// How many times as fast as one alone they draw.
+  /// Frames per renderer in one draw(): keeps the time small in which one waits for the other.
+  static constexpr int kFrames = 3;
+  /// Speed-up over one renderer.
+  /// @param one    a single frame on one thread
+  /// @param draws  draw() of this class
   static Ratio speed_up(const Statistics& one, const Statistics& draws) {
     const Ratio ratio = ratio_of(one, draws);
-    constexpr double kAll = 2 * kFrames;
-    return {kAll * ratio.value, kAll * ratio.low, kAll * ratio.high};
+    constexpr double kAllFrames = 2 * kFrames;
+    return {kAllFrames * ratio.value, kAllFrames * ratio.low, kAllFrames * ratio.high};
   }
 
   IndependentRenderers(const WorkloadEntry& entry, WorkloadSetup setup) {

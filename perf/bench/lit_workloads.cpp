@@ -1,4 +1,4 @@
-// Spheres under 1 to 8 lights, points and spots, lit at the vertices and at the pixels; and the bunny.
+// Spheres under 1 to 8 point or spot lights, with per-vertex and per-pixel lighting.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,12 +14,14 @@ namespace {
 constexpr double kDistance = 4, kRadius = 1.9;
 constexpr float kRed = 0.41f, kShininess = 50;
 
-/// In a ring before the sphere, near enough for their directions to differ all over it.
+/// Lights in a ring in front of the sphere, near enough for their directions to vary over it.
 std::vector<Light> ring_of_lights(int count, bool spots) {
   std::vector<Light> lights;
   for (int k = 0; k < count; ++k) {
-    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / 8, x = 3 * std::cos(angle),
-                y = 3 * std::sin(angle), z = 3;
+    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / 8;
+    const float x = 3 * std::cos(angle);
+    const float y = 3 * std::sin(angle);
+    const float z = 3;
     Light light;
     light.position = {x, y, z, 1};
     light.diffuse = {0.4f, 0.4f, 0.4f, 1};
@@ -35,45 +37,47 @@ std::vector<Light> ring_of_lights(int count, bool spots) {
   return lights;
 }
 
-// The red of the point next to the eye, 0 .. 1, by the lighting equation.
-double red_in_the_middle(const std::vector<Light>& lights) {
+// Red of the sphere's point nearest to the eye by the lighting equation, 0 to 1.
+double red_at_center(const std::vector<Light>& lights) {
   double red = 0.2 * kRed;
   for (const Light& light : lights) {
-    const double x = light.position[0], y = light.position[1], z = light.position[2] - kRadius,
-                 distance = std::hypot(x, y, z);
-    const double to_light = z / distance,
-                 halfway = std::sqrt((1 + to_light) /
-                                     2);  // of its cosines with the normal, which points to the eye
+    const double x = light.position[0];
+    const double y = light.position[1];
+    const double z = light.position[2] - kRadius;
+    const double distance = std::hypot(x, y, z);
+    // The normal points to the eye: cosines between it and the directions to the light and halfway.
+    const double to_light = z / distance;
+    const double halfway = std::sqrt((1 + to_light) / 2);
     double strength = 1 / (1 + double{light.attenuation_linear} * distance);
     if (light.spot_cutoff < 180) {
       const double aim = std::hypot(light.position[0], light.position[1], light.position[2]);
       const double cosine =
           (x * light.position[0] + y * light.position[1] + z * light.position[2]) / (distance * aim);
-      strength *= cosine < std::cos(double{light.spot_cutoff} * std::numbers::pi / 180)
-                      ? 0
-                      : std::pow(cosine, light.spot_exponent);
+      const bool is_in_cone = cosine >= std::cos(double{light.spot_cutoff} * std::numbers::pi / 180);
+      strength *= is_in_cone ? std::pow(cosine, light.spot_exponent) : 0;
     }
     red += strength * (to_light * light.diffuse.r * kRed + std::pow(halfway, kShininess) * light.specular.r);
   }
   return std::min(red, 1.0);
 }
 
-// The outline is a circle: of tangents from the eye to the sphere, on the image plane at distance 1, which
-// half as much above the middle is the window's edge.
-std::string wrong_sphere(const Picture& picture, double red) {
-  const double radius = kRadius / std::sqrt(kDistance * kDistance - kRadius * kRadius) * picture.height,
-               expected = std::numbers::pi * radius * radius;
-  std::size_t seen = 0;
+// The outline is a circle, formed by the tangents from the eye to the sphere on the image plane at distance
+// 1, whose upper edge is 0.5 above the centre.
+std::string sphere_fault(const Picture& picture, double red) {
+  const double radius = kRadius / std::sqrt(kDistance * kDistance - kRadius * kRadius) * picture.height;
+  const double expected = std::numbers::pi * radius * radius;
+  std::size_t covered = 0;
   for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
-    seen += (picture.rgba[i] | picture.rgba[i + 1] | picture.rgba[i + 2]) != 0 ? 1 : 0;
+    covered += (picture.rgba[i] | picture.rgba[i + 1] | picture.rgba[i + 2]) != 0 ? 1 : 0;
   const bool is_cut = 2 * radius > std::min(picture.width, picture.height);
-  if (!is_cut && std::abs(static_cast<double>(seen) - expected) > 0.005 * expected + 8 * radius)
-    return "covers " + std::to_string(seen) + " pixels, expected about " +
+  const double difference = std::abs(static_cast<double>(covered) - expected);
+  if (!is_cut && difference > 0.005 * expected + 8 * radius)
+    return "covers " + std::to_string(covered) + " pixels, expected about " +
            std::to_string(std::llround(expected));
-  const auto middle = static_cast<std::size_t>(picture.height / 2 * picture.width + picture.width / 2);
-  const int found = picture.rgba[4 * middle];
+  const auto center = static_cast<std::size_t>(picture.height / 2 * picture.width + picture.width / 2);
+  const int found = picture.rgba[4 * center];
   if (std::abs(found - 255 * red) > 5)
-    return "the middle's red is " + std::to_string(found) + ", expected about " +
+    return "red at the centre is " + std::to_string(found) + ", expected about " +
            std::to_string(std::lround(255 * red));
   return {};
 }
@@ -115,17 +119,18 @@ Drawing lit_sphere(int width, int height, int columns, Shading shading, int ligh
                       .tests_depth = true,
                       .culls_back = true};
   };
-  drawing.fault = [red = red_in_the_middle(ring_of_lights(lights, spots))](const Picture& picture) {
-    return wrong_sphere(picture, red);
+  drawing.fault = [red = red_at_center(ring_of_lights(lights, spots))](const Picture& picture) {
+    return sphere_fault(picture, red);
   };
   return drawing;
 }
 
 WorkloadEntry entry(const std::string& size, int columns, Shading shading, int lights, bool spots) {
-  const bool phong = shading == Shading::phong;
-  const std::string kind = spots ? "spot" : "point", count = std::to_string(lights);
-  return drawn(std::string(phong ? "phong-" : "vertex-") + size + "-" + count + (spots ? "-spot" : ""),
-               "a sphere of " + size + " triangles, lit at its " + (phong ? "pixels" : "vertices") + " by " +
+  const bool is_phong = shading == Shading::phong;
+  const std::string kind = spots ? "spot" : "point";
+  const std::string count = std::to_string(lights);
+  return drawn(std::string(is_phong ? "phong-" : "vertex-") + size + "-" + count + (spots ? "-spot" : ""),
+               "a sphere of " + size + " triangles, lit per " + (is_phong ? "pixel" : "vertex") + " by " +
                    count + " " + kind + (lights > 1 ? " lights" : " light"),
                [=](int width, int height, std::uint32_t) {
                  return lit_sphere(width, height, columns, shading, lights, spots);
@@ -139,7 +144,7 @@ WorkloadEntry sphere_in_frame(int width, int height) {
   return drawn_outside_mean(
       "size-" + size, "phong-20k-1 in a frame of " + size, [=](int, int, std::uint32_t) {
         Drawing drawing = lit_sphere(width, height, 142, Shading::phong, 1, false);
-        drawing.gl_workload = nullptr;  // rivals draw in frames of the size that was asked for
+        drawing.gl_workload = nullptr;  // rivals draw frames of the size from the command line only
         return drawing;
       });
 }

@@ -1,10 +1,9 @@
-// tessera bench: what frames cost on this machine.
+// tessera bench: measures the cost of frames on this machine.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
-#include <map>
 #include <new>
 #include <optional>
 #include <utility>
@@ -20,106 +19,41 @@
 #include "perf/bench/cores.h"
 #include "perf/bench/frame_costs.h"
 #include "perf/bench/growth.h"
+#include "perf/bench/output_files.h"
 #include "perf/bench/report.h"
 #include "perf/bench/text.h"
 #include "perf/bench/traced_frame.h"
+#include "perf/bench/workload_selection.h"
 
 namespace tessera::bench {
 using namespace detail;
 using namespace program;
 namespace {
 
-constexpr int kFailed = 1, kBadUsage = 2, kRegressed = 3;
+// Exit codes.
+constexpr int kFailed = 1;
+constexpr int kBadUsage = 2;
+constexpr int kRegressed = 3;
 
 constexpr const char* kExamples = R"(examples:
-  tessera bench                                   everything
-  tessera bench fill grid-2M                      some of it
-  tessera bench --json before.json                and later
-  tessera bench --compare before.json)";
-
-/// Whether a name is a workload's, or, if it is no whole name, how that one's begins.
-bool matches(const std::string& name, const WorkloadEntry& entry) {
-  if (entry.name == name) return true;
-  const bool is_a_whole_name = std::any_of(workloads().begin(), workloads().end(),
-                                           [&](const WorkloadEntry& other) { return other.name == name; });
-  return !is_a_whole_name && !name.empty() && entry.name.starts_with(name);
-}
-std::vector<const WorkloadEntry*> select_workloads(const std::vector<std::string>& names) {
-  std::vector<const WorkloadEntry*> list;
-  for (const std::string& name : names)
-    if (std::none_of(workloads().begin(), workloads().end(),
-                     [&](const WorkloadEntry& entry) { return matches(name, entry); }))
-      throw CLI::ValidationError(
-          "workloads", "found \"" + name + "\", with which no workload's name begins; --list has them");
-  for (const WorkloadEntry& entry : workloads())
-    if (names.empty() || std::any_of(names.begin(), names.end(),
-                                     [&](const std::string& name) { return matches(name, entry); }))
-      list.push_back(&entry);
-  return list;
-}
+  tessera bench                                   all workloads
+  tessera bench fill grid-2M                      some of them
+  tessera bench operation                         cost of fragment operations
+  tessera bench --json before.json                before a change
+  tessera bench --compare before.json             after it)";
 
 void write(const std::string& file, const std::string& text) {
   if (file != "-") return write_file_atomically(file, text);
   cli::write_to_stdout(text);
 }
 
-/// Before anything is measured: that what is to be written can be, as far as can be seen, and that no two are
-/// one. A file that is "-" is the standard output.
-void require_outputs(const BenchOptions& options) {
-  namespace fs = std::filesystem;
-  std::map<fs::path, std::string> option_of;
-  const auto note = [&](const char* option, const std::string& file, const std::optional<fs::path>& target) {
-    if (!target) return;
-    if (const auto [other, is_new] = option_of.emplace(*target, option); !is_new)
-      throw CLI::ValidationError(
-          option, "found \"" + file + "\", as for " + other->second + ", expected another one");
-  };
-  for (const auto& [option, file] : {std::pair("--json", options.json_file),
-                                     {"--csv", options.csv_file},
-                                     {"--growth", options.growth_file},
-                                     {"--trace", options.trace_file}})
-    if (!file.empty()) note(option, file, file == "-" ? fs::path(file) : require_writable(file));
-  if (!options.heatmap_file.empty())
-    note("--heatmap", options.heatmap_file, require_writable_picture(options.heatmap_file));
-  const std::string& folder = options.pictures_folder;
-  if (folder.empty()) return;
-  const fs::path picture = fs::path(folder) / "picture.png";
-  if (fs::is_directory(folder)) require_writable(picture);
-  // A folder cannot be made where a file is to be, nor within one.
-  for (fs::path path = fs::weakly_canonical(fs::absolute(picture)).parent_path(); path.has_relative_path();
-       path = path.parent_path())
-    if (option_of.contains(path)) note("--pictures", folder, path);
-}
-
 void make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw Error("cannot make the folder \"" + folder + "\": " + error.message());
+  if (error) throw Error("cannot create the folder \"" + folder + "\": " + error.message());
 }
 
-/// Those that can run; of the others, lines that say why they cannot.
-struct Chosen {
-  std::vector<const WorkloadEntry*> entries;
-  std::string left_out;
-};
-/// @throws Error if a name was given and nothing that it means can run
-Chosen prepare_workloads(const std::vector<std::string>& names) {
-  Chosen chosen;
-  std::map<std::string, std::string> why_none;  // of what a name means can run; empty where one can
-  for (const WorkloadEntry* entry : select_workloads(names)) {
-    const std::string reason = entry->prepare ? entry->prepare() : "";
-    const bool runs = reason.empty();
-    if (runs) chosen.entries.push_back(entry);
-    else chosen.left_out += entry->name + ": left out, " + reason + "\n";
-    for (const std::string& name : names)
-      if (matches(name, *entry) && (runs || !why_none.contains(name))) why_none[name] = reason;
-  }
-  for (const auto& [name, reason] : why_none)
-    if (!reason.empty()) throw Error("found nothing to measure of \"" + name + "\": it " + reason);
-  return chosen;
-}
-
-/// What is measured, and lines of it shown as soon as they are known.
+/// Measures workloads and prints each line as soon as it is known.
 class Bench {
  public:
   explicit Bench(const BenchOptions& options)
@@ -134,7 +68,7 @@ class Bench {
     report_.threads = options.renderer.threads;
     report_.tile_size = options.renderer.tile_size;
     report_.seed = options.measure.seed;
-    if (!options.cores.empty()) report_.cores = allowed_cores();  // sorted, and each once
+    if (!options.cores.empty()) report_.cores = allowed_cores();  // sorted, without duplicates
     report_.instruction_set = name(Renderer(options.renderer).options().instruction_set);
   }
 
@@ -147,23 +81,23 @@ class Bench {
     if (!entries.empty()) measure_noise(*entries.front());
   }
   void measure_rates() {
-    constexpr std::uint64_t kBandwidthTestBytes = std::uint64_t{256} << 20,
-                            kTileBytes = std::uint64_t{64} << 10;
-    const std::uint64_t frame =
+    constexpr std::uint64_t kBandwidthTestBytes = std::uint64_t{256} << 20;
+    constexpr std::uint64_t kTileBytes = std::uint64_t{64} << 10;
+    const std::uint64_t frame_bytes =
         4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
-    const auto rate_of = [](Roofline limit, int threads, std::uint64_t bytes) -> std::optional<double> {
+    const auto rate_of = [](Roofline roofline, int threads, std::uint64_t bytes) -> std::optional<double> {
       try {
-        return measure_bandwidth(limit, threads, bytes);
+        return measure_bandwidth(roofline, threads, bytes);
       } catch (const std::bad_alloc&) {
-        return {};  // what was measured before is worth more
+        return {};  // keep the other results
       }
     };
-    const auto rate = [&](Roofline limit, std::uint64_t bytes) {
-      return rate_of(limit, report_.threads, bytes);
+    const auto rate = [&](Roofline roofline, std::uint64_t bytes) {
+      return rate_of(roofline, report_.threads, bytes);
     };
     report_.bandwidth = {.l1_stores = rate(Roofline::l1_stores, 0),
-                         .frame_stores = rate(Roofline::memory_stores, frame),
-                         .frame_copies = rate(Roofline::memory_copies, 2 * frame),
+                         .frame_stores = rate(Roofline::memory_stores, frame_bytes),
+                         .frame_copies = rate(Roofline::memory_copies, 2 * frame_bytes),
                          .tile_stores = rate(Roofline::memory_stores,
                                              kTileBytes * static_cast<std::uint64_t>(report_.threads)),
                          .memory_stores = rate(Roofline::memory_stores, kBandwidthTestBytes),
@@ -172,16 +106,16 @@ class Bench {
     try {
       report_.core_to_core_ns[1] = core_to_core_ns();
     } catch (const std::exception&) {
-      // There is no thread or no memory for it: 0, which is not shown.
+      // No thread or no memory for it: stays 0, which is not shown.
     }
   }
   void show(const std::string& text) const {
     if (!is_silent()) cli::write_to_stdout(text);
   }
-  /// The standard output is for programs.
+  /// Whether the standard output carries JSON or CSV.
   bool is_silent() const { return options_.json_file == "-" || options_.csv_file == "-"; }
   const Report& report() const { return report_; }
-  bool is_wrong() const { return is_wrong_; }
+  bool has_fault() const { return has_fault_; }
 
  private:
   void run_alone(const std::vector<const WorkloadEntry*>& entries) {
@@ -194,8 +128,9 @@ class Bench {
           return std::string();
         };
       Row row = measure(std::vector{candidate}, with_rooflines(options_.measure), counters_).front();
+      compare_with_baseline(*entry, row);
       show(table_line(row));
-      is_wrong_ |= !row.fault.empty();
+      has_fault_ |= !row.fault.empty();
       report_.rows.push_back(std::move(row));
     }
   }
@@ -208,31 +143,32 @@ class Bench {
     std::string without_rival;
     show(comparison_heading());
     for (const WorkloadEntry* entry : entries) {
-      std::optional<Comparison> fought =
+      std::optional<Comparison> comparison =
           compare_with_rival(*entry, setup_, options_.driver, options_.measure, counters_);
-      if (!fought) {
+      if (!comparison) {
         without_rival += " " + entry->name;
         continue;
       }
-      show(comparison_line(*fought));
-      is_wrong_ |= !fought->fault().empty();
-      rival_comparisons.comparisons.push_back(std::move(*fought));
+      show(comparison_line(*comparison));
+      has_fault_ |= !comparison->fault().empty();
+      rival_comparisons.comparisons.push_back(std::move(*comparison));
     }
-    if (!without_rival.empty()) show("no rival draws:" + without_rival + "\n");
+    if (!without_rival.empty()) show("not drawn by rivals:" + without_rival + "\n");
   }
   void run_on_more_threads(const std::vector<const WorkloadEntry*>& entries) {
     CoreModel& model = report_.core_model.emplace(measure_core_model(report_.threads));
     model.bandwidth_saturating_cores = options_.memory_cores;
     show(
-        formatted("one core copies %.1f GB/s, and %d of them are taken to copy all that the memory does "
-                  "(--memory-cores); a stage begins in %.1f microseconds\n\n",
+        formatted("one core copies %.1f GB/s; %d cores are assumed to saturate memory bandwidth "
+                  "(--memory-cores); a barrier takes %.1f us\n\n",
                   model.core_gb_per_second, model.bandwidth_saturating_cores, 1e6 * model.barrier_seconds));
     show(scaling_heading(report_.threads));
     for (const WorkloadEntry* entry : entries) {
       report_.scaling.push_back(
           scaling_of(*entry, setup_, report_.threads, model, options_.measure, counters_));
       show(scaling_line(report_.scaling.back()));
-      is_wrong_ |= !report_.scaling.back().fault.empty() || !report_.scaling.back().not_computed.empty();
+      const Scaling& scaling = report_.scaling.back();
+      has_fault_ |= !scaling.fault.empty() || !scaling.not_computed.empty();
     }
   }
   void measure_noise(const WorkloadEntry& entry) {
@@ -241,8 +177,19 @@ class Bench {
     report_.noise_of = entry.name;
     if (rows[0].frames != 0) report_.noise = ratio_of(rows[1].ms, rows[0].ms);
   }
+  /// Times the row's workload once more, in turns with its baseline, if it has one.
+  void compare_with_baseline(const WorkloadEntry& entry, Row& row) {
+    const WorkloadEntry* const baseline = find_workload(entry.baseline);
+    if (baseline == nullptr || !row.fault.empty()) return;
+    const std::vector<Row> rows =
+        measure(std::vector{candidate_of(entry), candidate_of(*baseline)}, options_.measure, counters_);
+    for (const Row& measured : rows)
+      if (row.fault.empty()) row.fault = measured.fault;
+    if (row.fault.empty()) row.to_baseline = {baseline->name, ratio_of(rows[0].ms, rows[1].ms)};
+  }
   static MeasureOptions with_rooflines(MeasureOptions options) {
-    return options.measures_rooflines = true, options;
+    options.measures_rooflines = true;
+    return options;
   }
   Candidate candidate_of(const WorkloadEntry& entry) const {
     return {.name = entry.name,
@@ -254,7 +201,7 @@ class Bench {
   WorkloadSetup setup_;
   Report report_{};
   HardwareCounters counters_{};
-  bool is_wrong_ = false;
+  bool has_fault_ = false;
 };
 
 void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>& entries) {
@@ -267,19 +214,20 @@ void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>&
     for (const WorkloadEntry* entry : entries) {
       frames.push_back(trace_frame(*entry, setup));
       if (frames.back().tasks.empty())
-        std::cerr << entry->name << ": no renderer draws it, so its trace is empty\n";
+        std::cerr << entry->name << ": is not drawn by a renderer, so its trace is empty\n";
     }
-  std::optional<Heatmap> map;
+  std::optional<Heatmap> tile_costs;
   if (!options.heatmap_file.empty()) {
-    map = heatmap(measure_task_costs(*entries.front(), setup, options.renderer.threads));
-    if (map->picture.rgba.empty())
-      throw Error(entries.front()->name + ": no renderer draws it, so there is no heatmap of its tiles");
+    tile_costs = heatmap(measure_task_costs(*entries.front(), setup, options.renderer.threads));
+    if (tile_costs->picture.rgba.empty())
+      throw Error(entries.front()->name +
+                  ": is not drawn by a renderer, so there is no heatmap of its tiles");
   }
   if (!options.trace_file.empty()) write(options.trace_file, chrome_trace(frames));
-  if (!map) return;
-  write_picture(map->picture, options.heatmap_file);
-  (options.trace_file == "-" ? std::cerr : std::cout)
-      << formatted("%s: white is %.2f ns a pixel\n", options.heatmap_file.c_str(), map->max_ns_per_pixel);
+  if (!tile_costs) return;
+  write_picture(tile_costs->picture, options.heatmap_file);
+  (options.trace_file == "-" ? std::cerr : std::cout) << formatted(
+      "%s: white is %.2f ns per pixel\n", options.heatmap_file.c_str(), tile_costs->max_ns_per_pixel);
 }
 
 void show_growth(const BenchOptions& options) {
@@ -294,7 +242,8 @@ void show_growth(const BenchOptions& options) {
   write(options.growth_file, growth_svg(all));
 }
 
-/// @throws CLI::ValidationError if this process may not use each of them
+/// Binds the process to these logical CPUs.
+/// @throws CLI::ValidationError if one of them is not allowed
 void require_affinity(const std::vector<int>& cores) {
   const auto listed = [](const std::vector<int>& list) {
     std::string text;
@@ -302,55 +251,61 @@ void require_affinity(const std::vector<int>& cores) {
     return text;
   };
   const std::vector<int> allowed = allowed_cores();
-  std::vector<int> others;
-  std::copy_if(cores.begin(), cores.end(), std::back_inserter(others),
+  std::vector<int> forbidden;
+  std::copy_if(cores.begin(), cores.end(), std::back_inserter(forbidden),
                [&](int core) { return std::find(allowed.begin(), allowed.end(), core) == allowed.end(); });
-  if (!others.empty())
-    throw CLI::ValidationError(
-        "--cores",
-        "found " + listed(others) + ", which this process may not use, expected some of " + listed(allowed));
+  if (!forbidden.empty())
+    throw CLI::ValidationError("--cores", "found " + listed(forbidden) +
+                                              ", which this process may not use, expected some of " +
+                                              listed(allowed));
   if (!set_thread_affinity(cores))
-    throw Error("the system does not keep this process on the cores " + listed(cores));
+    throw Error("the system refuses to bind this process to the cores " + listed(cores));
 }
 
 int run(BenchOptions& options) {
   if (options.list) {
     for (const WorkloadEntry& entry : workloads()) {
-      const std::string lacks = entry.lacks ? entry.lacks() : "";
-      std::printf("%-22s %s%s%s\n", entry.name.c_str(), entry.what.c_str(),
-                  entry.is_in_mean ? "" : " (beside the mean)", lacks.empty() ? "" : (": " + lacks).c_str());
+      const std::string missing = entry.missing_requirement ? entry.missing_requirement() : "";
+      std::printf("%-22s %s%s%s\n", entry.name.c_str(), entry.description.c_str(),
+                  entry.is_in_mean ? "" : " (not in the mean)",
+                  missing.empty() ? "" : (": " + missing).c_str());
     }
     return 0;
   }
-  std::optional<BaselineRun> earlier;  // which has to be there before anything is measured
+  // The earlier report must be readable before anything is measured.
+  std::optional<BaselineRun> earlier;
   if (!options.compare_file.empty()) {
     earlier.emplace(options.compare_file);
     earlier->require_size(options.width, options.height);
   }
-  const Chosen chosen = prepare_workloads(options.names);
-  if (options.growth_file.empty()) std::cerr << chosen.left_out;
-  if (earlier && !earlier->has_any_of(chosen.entries))
-    throw Error(options.compare_file + ": found none of the workloads to be measured, expected one at least");
-  if (!options.heatmap_file.empty() && chosen.entries.size() != 1)
-    throw CLI::ValidationError("--heatmap",
-                               "found " + std::to_string(chosen.entries.size()) + " workloads, expected 1");
+  const Selection selection = prepare_workloads(options.names);
+  if (options.growth_file.empty()) std::cerr << selection.skipped;
+  if (earlier && !earlier->has_any_of(selection.entries))
+    throw Error(options.compare_file + ": has none of the workloads to be measured, expected at least one");
+  if (!options.heatmap_file.empty() && selection.entries.size() != 1)
+    throw CLI::ValidationError(
+        "--heatmap", "found " + std::to_string(selection.entries.size()) + " workloads, expected 1");
   require_outputs(options);
   if (!options.cores.empty()) require_affinity(options.cores);
   if (options.renderer.threads == 0) options.renderer.threads = available_cores();
-  if (!options.growth_file.empty()) return show_growth(options), 0;
+  if (!options.growth_file.empty()) {
+    show_growth(options);
+    return 0;
+  }
   if (!options.trace_file.empty() || !options.heatmap_file.empty()) {
     const ThreadLimit limit(options.renderer.threads);
-    return trace(options, chosen.entries), 0;
+    trace(options, selection.entries);
+    return 0;
   }
-  Bench bench(options);  // and its counters, before any thread is started
+  Bench bench(options);  // opens the hardware counters: before any thread is started
   const ThreadLimit limit(options.renderer.threads);
   if (!options.pictures_folder.empty()) make_folder(options.pictures_folder);
-  bench.run(chosen.entries);
+  bench.run(selection.entries);
   bench.measure_rates();
   bench.show(table_summary(bench.report()));
   if (!options.json_file.empty()) write(options.json_file, report_json(bench.report()).dump(2) + "\n");
   if (!options.csv_file.empty()) write(options.csv_file, report_csv(bench.report()));
-  if (bench.is_wrong()) return kFailed;
+  if (bench.has_fault()) return kFailed;
   if (!earlier) return 0;
   const BaselineComparison comparison = earlier->compare(bench.report(), options.allowed);
   (bench.is_silent() ? std::cerr : std::cout) << "\n" << comparison.table;
@@ -361,15 +316,15 @@ int run(BenchOptions& options) {
 }  // namespace tessera::bench
 
 int main(int argc, char** argv) {
-  CLI::App program("Measures what frames cost on this machine.", "tessera bench");
+  CLI::App program("Measures the cost of frames on this machine.", "tessera bench");
   program.footer(tessera::bench::kExamples);
   tessera::bench::BenchOptions options;
   tessera::bench::add_options(program, options);
   const auto run = [&] {
     try {
       program.parse(argc, argv);
-    } catch (const CLI::Success& asked) {
-      return program.exit(asked);  // --help
+    } catch (const CLI::Success& success) {
+      return program.exit(success);  // --help
     }
     return tessera::bench::run(options);
   };

@@ -17,13 +17,14 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-constexpr int kMinTurns = 15, kMaxTurns = 1000000;
+constexpr int kMinTurns = 15;
+constexpr int kMaxTurns = 1000000;
 
-/// A workload, or what another one is held against.
+/// A workload or the roofline of one.
 struct Runner {
   std::unique_ptr<Workload> workload{};
   std::optional<BandwidthKernel> roofline{};
-  double Row::*rate = nullptr;  // of the roofline
+  double Row::*rate = nullptr;  // result of the roofline
   std::size_t row = 0;
   FrameStats stats{};  // of the last frame
   std::vector<double> times{};
@@ -35,30 +36,32 @@ struct Runner {
   }
 };
 
-/// Turns of `ms` each that the seconds of a row hold, 15 at least.
+/// Number of turns of `ms` that fit in `seconds`, at least kMinTurns.
 int turns_for(double seconds, double ms) {
   return static_cast<int>(
       std::clamp(1000 * seconds / std::max(ms, 0.001), static_cast<double>(kMinTurns), 1e4));
 }
 
-std::uint64_t above(std::uint64_t bytes, std::uint64_t others) { return bytes > others ? bytes - others : 0; }
+std::uint64_t saturating_difference(std::uint64_t a, std::uint64_t b) { return a > b ? a - b : 0; }
 
+/// Draws at least three frames. Returns the time of the last one in ms.
 double warm_up(Runner& runner, double seconds) {
-  double frame = 0;
+  double frame_ms = 0;
   const Clock::time_point start = Clock::now();
   for (int i = 0; i < 3 || ms_since(start) < 1000 * seconds; ++i) {
     const Clock::time_point begin = Clock::now();
     runner.draw();
-    frame = ms_since(begin);
+    frame_ms = ms_since(begin);
   }
-  return frame;
+  return frame_ms;
 }
 
-/// What stops a workload (no memory, say), in one line; empty: nothing does. Other rows of the table go on.
-template <class Work>
-std::string fault_of(const Work& work) {
+/// Runs `function`. Returns the text of an exception, or an empty string: an error ends one row, not the
+/// table.
+template <class Function>
+std::string error_of(const Function& function) {
   try {
-    work();
+    function();
   } catch (const std::bad_alloc&) {
     return kOutOfMemory;
   } catch (const std::exception& error) {
@@ -67,28 +70,28 @@ std::string fault_of(const Work& work) {
   return {};
 }
 
-/// The first frame.
+/// Makes the workload and draws the cold first frame.
 void draw_first(const Candidate& candidate, Runner& runner, Row& row) {
   reset_peak();
   const std::uint64_t before = resident_memory().now;
   runner.workload = candidate.make();
-  reset_peak();  // what was needed to make it only is given back
+  reset_peak();  // excludes temporary memory of make()
   const std::uint64_t made = resident_memory().now;
   const Clock::time_point start = Clock::now();
   runner.draw();
   row.cold_ms = ms_since(start);
-  const std::uint64_t peak = resident_memory().peak,
-                      kept = runner.workload->work(runner.stats).frame_buffer_bytes;
-  row.peak_bytes = above(peak, before);
-  row.working_bytes = above(peak, made + kept);
+  const std::uint64_t peak = resident_memory().peak;
+  const std::uint64_t frame_buffer = runner.workload->work(runner.stats).frame_buffer_bytes;
+  row.peak_bytes = saturating_difference(peak, before);
+  row.working_bytes = saturating_difference(peak, made + frame_buffer);
 }
 std::string picture_fault(const Candidate& candidate, Workload& workload) {
   std::string fault = workload.fault();
   return fault.empty() && candidate.validate ? candidate.validate(workload.picture()) : fault;
 }
 
-/// One more runner for each roofline that a row is held against, which runs so long, a millisecond where all
-/// is in caches, that its threads' start is little beside it.
+/// Adds one runner per roofline of a row. It runs for a millisecond at least (data in caches), so that
+/// starting the threads takes a negligible part.
 void add_rooflines(std::vector<Runner>& runners, const std::vector<Row>& rows, std::size_t& drawing) {
   const auto add = [&](const FrameWork& work, double Row::*rate) {
     try {
@@ -97,7 +100,7 @@ void add_rooflines(std::vector<Runner>& runners, const std::vector<Row>& rows, s
            .rate = rate,
            .row = drawing});
     } catch (const std::bad_alloc&) {
-      // The row is worth more than what it is held against, and its roofline stays 0.
+      // Keep the row; its roofline stays 0.
     }
   };
   for (drawing = 0; drawing < rows.size(); ++drawing) {
@@ -107,20 +110,21 @@ void add_rooflines(std::vector<Runner>& runners, const std::vector<Row>& rows, s
   }
 }
 
-/// Frames that are timed, as many of each, in turns; limits take no more of these than the seconds of a row
-/// hold (15 at least).
-/// @param drawing  the row whose turn it is
+/// Times all runners in random turns: the same number of frames of each workload. Rooflines take no more
+/// turns than fit in options.seconds (at least kMinTurns).
+/// @param drawing  set to the row whose turn it is, also on an exception
 void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options,
                    const HardwareCounters& counters, std::size_t& drawing) {
-  // As many turns each, or the frames of the faster one would mostly follow its own, and those of the slower
-  // one the other's.
+  // Equal numbers: otherwise most frames of the faster workload would follow its own frames, and those of the
+  // slower one the other's.
   int frames = kMaxTurns;
   std::vector<std::size_t> turns;
-  for (std::size_t k = 0; k < runners.size(); ++k) {  // limits come last
+  for (std::size_t k = 0; k < runners.size(); ++k) {  // rooflines come last
     drawing = runners[k].row;
-    const int most = turns_for(options.seconds, warm_up(runners[k], options.warm_up_seconds));
-    if (runners[k].roofline) turns.insert(turns.end(), static_cast<std::size_t>(std::min(frames, most)), k);
-    else frames = std::min(frames, options.repeats > 0 ? options.repeats : most);
+    const int max_turns = turns_for(options.seconds, warm_up(runners[k], options.warm_up_seconds));
+    if (runners[k].roofline)
+      turns.insert(turns.end(), static_cast<std::size_t>(std::min(frames, max_turns)), k);
+    else frames = std::min(frames, options.repeats > 0 ? options.repeats : max_turns);
   }
   for (std::size_t k = 0; k < runners.size(); ++k)
     if (!runners[k].roofline) turns.insert(turns.end(), static_cast<std::size_t>(frames), k);
@@ -130,7 +134,7 @@ void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options,
   for (const std::size_t k : turns) {
     Runner& runner = runners[k];
     drawing = runner.row;
-    if (last != k) runner.draw();  // caches and threads are its own again
+    if (last != k) runner.draw();  // warms up caches and threads again
     last = k;
     const std::optional<HardwareCounters::Counts> before = counters.read();
     const Clock::time_point start = Clock::now();
@@ -154,22 +158,22 @@ std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOpt
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     runners[k].row = k;
     std::string fault;
-    const std::string stopped = fault_of([&] {
+    const std::string error = error_of([&] {
       draw_first(candidates[k], runners[k], rows[k]);
       fault = picture_fault(candidates[k], *runners[k].workload);
     });
-    rows[k].fault = stopped.empty() ? fault : stopped;
-    rows[k].is_aborted = !stopped.empty();
+    rows[k].fault = error.empty() ? fault : error;
+    rows[k].is_aborted = !error.empty();
   }
   const auto has_fault = [](const Row& row) { return !row.fault.empty(); };
   if (std::any_of(rows.begin(), rows.end(), has_fault)) return rows;
   std::size_t drawing = 0;
-  const std::string stopped = fault_of([&] {
+  const std::string error = error_of([&] {
     if (options.measures_rooflines) add_rooflines(runners, rows, drawing);
     draw_in_turns(runners, options, counters, drawing);
   });
-  if (!stopped.empty()) {
-    rows[drawing].fault = stopped;
+  if (!error.empty()) {
+    rows[drawing].fault = error;
     rows[drawing].is_aborted = true;
     return rows;
   }

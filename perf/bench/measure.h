@@ -1,4 +1,4 @@
-// Times frames: first the cold one, then, after a warm-up, so many that their median stands still.
+// Times frames: the cold first frame, then, after a warm-up, enough frames for a stable median.
 #pragma once
 
 #include <optional>
@@ -12,44 +12,52 @@
 
 namespace tessera::bench {
 
-/// The fault of a row whose frames there was no memory for.
+/// Row::fault if memory ran out.
 inline constexpr const char* kOutOfMemory = "out of memory";
 
 struct MeasureOptions {
-  int repeats = 0;     ///< frames of each row; 0: as many as `seconds` hold, 15 at least
-  double seconds = 1;  ///< for each row; for what it is held against always
+  int repeats = 0;     ///< frames per row; 0: as many as fit in `seconds`, at least 15
+  double seconds = 1;  ///< per row; rooflines use it even if `repeats` is set
   double warm_up_seconds = 0.2;
-  std::uint32_t seed = 1;           ///< of the order in which rows take turns
-  bool measures_rooflines = false;  ///< what a row is held against takes turns with it
+  std::uint32_t seed = 1;           ///< for the order of turns
+  bool measures_rooflines = false;  ///< measure each row's roofline in turns with it
+};
+
+/// Ratio of a row's median to that of its baseline, measured in turns.
+struct BaselineRatio {
+  std::string baseline;  ///< name of the workload
+  Ratio ratio;
 };
 
 struct Row {
   std::string name;
   int threads = 0;
   std::size_t frames = 0;
-  double cold_ms = 0;               ///< renderer, frame buffer and first frame
-  std::uint64_t peak_bytes = 0;     ///< of memory, with meshes, until the first frame is finished
-  std::uint64_t working_bytes = 0;  ///< of that, what the first frame took, without planes and image
+  double cold_ms = 0;               ///< first frame, including set-up of renderer and frame buffer
+  std::uint64_t peak_bytes = 0;     ///< memory growth up to the end of the first frame, meshes included
+  std::uint64_t working_bytes = 0;  ///< part of it that the first frame took, without planes and image
   Statistics ms;
   FrameWork work;
-  std::optional<HardwareCounters::Counts> counts{};  ///< of a frame
-  double roofline = 0;      ///< 10^9 bytes a second, where there is one and it was measured
-  double l1_stores = 0;     ///< the same of stores in L1, where tiles' words are what is stored
-  std::string fault;        ///< of the picture, or what stopped it; empty: it is right
-  bool is_aborted = false;  ///< no memory, say: the fault is nothing that was drawn
+  std::optional<HardwareCounters::Counts> counts{};  ///< per frame
+  double roofline = 0;                               ///< 10^9 bytes/s; 0: none, or not measured
+  double l1_stores = 0;  ///< L1 store rate in 10^9 bytes/s, for Roofline::tile_stores only
+  std::optional<BaselineRatio> to_baseline{};
+  std::string fault;        ///< of the picture, or the error that stopped the row; empty: none
+  bool is_aborted = false;  ///< whether an error stopped the row (`fault` is not about the picture)
 };
 
 struct Candidate {
   std::string name;
   std::function<std::unique_ptr<Workload>()> make;
   int threads = 0;
-  std::function<std::string(const Picture&)>
-      validate{};  ///< says what is wrong with what was drawn, or nothing; may be empty
+  /// Additional check of the picture: returns the fault, or an empty string. Optional.
+  std::function<std::string(const Picture&)> validate{};
 };
 
-/// Makes the candidates, draws and checks each, and then lets them take turns, as many each (limits may take
-/// fewer), in random order; who follows another draws a frame first that is not timed. Where one has a fault,
-/// or throws, none is timed.
+/// Makes the candidates, draws and checks one frame of each, then times them in turns.
+/// - Each gets the same number of turns, in random order; rooflines may get fewer.
+/// - After a change of candidate one untimed frame is drawn first.
+/// - If a candidate has a fault or throws, none is timed.
 std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOptions& options,
                          const HardwareCounters& counters);
 

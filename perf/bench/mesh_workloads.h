@@ -1,4 +1,4 @@
-// Workloads of many triangles, points and lines, and of lit ones; of the frame buffer; of whole scenes.
+// Workloads with many triangles, points and lines, with lighting, of the frame buffer, and of whole scenes.
 #pragma once
 
 #include <vector>
@@ -14,10 +14,10 @@ std::vector<WorkloadEntry> frame_buffer_workloads();
 std::vector<WorkloadEntry> plane_store_workloads();
 std::vector<WorkloadEntry> scene_workloads();
 
-// Those that grow by one number.
-WorkloadEntry grid_of(int side);  ///< 2 side^2 triangles over the whole window
+// Workloads that scale with one parameter, for --growth.
+WorkloadEntry grid_of(int side);  ///< 2 * side^2 triangles over the whole window
 WorkloadEntry sphere_in_frame(int width, int height);
-WorkloadEntry sphere_with_lights(int lights);        ///< lit at its pixels
-WorkloadEntry patches_in_separate_draws(int draws);  ///< of 32 triangles each
+WorkloadEntry sphere_with_lights(int lights);        ///< per-pixel lighting
+WorkloadEntry patches_in_separate_draws(int draws);  ///< 32 triangles per draw
 
 }  // namespace tessera::bench

@@ -12,25 +12,25 @@ namespace tessera::bench {
 using namespace program;
 namespace {
 
-/// A model and, once it was read, its scene.
 struct ModelFile {
-  std::string path, package;
-  std::optional<Model> model{};
+  std::string path;
+  std::string package;           ///< of Debian
+  std::optional<Model> model{};  ///< set by WorkloadEntry::prepare
 };
 
-/// Of a scene with one draw. Lit on one side, which is faster: that nothing else is seen is checked with the
-/// picture.
+/// For a scene with one draw. One-sided lighting, which is faster; the comparison of pictures shows that it
+/// is sufficient.
 GlWorkload gl_workload_of(const Scene& scene) {
-  GlWorkload form;
+  GlWorkload gl;
   LightModel model = scene.light_model;
   model.two_sided = false;
   for (const SceneCommand& command : scene.frame) {
     if (const auto* clear = std::get_if<Clear>(&command.what); clear != nullptr && clear->color)
-      form.clear_color = *clear->color;
+      gl.clear_color = *clear->color;
     if (const auto* draw = std::get_if<DrawCommand>(&command.what)) {
       const DrawState& state = draw->state;
-      form.mesh = scene.meshes[draw->mesh];
-      form.shaders =
+      gl.mesh = scene.meshes[draw->mesh];
+      gl.shaders =
           rivals::lit_shaders({.camera = scene.camera.at_aspect(static_cast<double>(scene.framebuffer.width) /
                                                                 scene.framebuffer.height),
                                .transform = state.transform,
@@ -39,11 +39,11 @@ GlWorkload gl_workload_of(const Scene& scene) {
                                .material = state.material,
                                .shading = state.shading,
                                .normalizes = state.normalize});
-      form.tests_depth = true;
-      form.culls_back = state.cull == Cull::back;
+      gl.tests_depth = true;
+      gl.culls_back = state.cull == Cull::back;
     }
   }
-  return form;
+  return gl;
 }
 
 Drawing drawing_of(const ModelFile& file, int width, int height) {
@@ -59,36 +59,35 @@ Drawing drawing_of(const ModelFile& file, int width, int height) {
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, const std::string& what, const std::string& path,
+WorkloadEntry entry(const std::string& name, const std::string& description, const std::string& path,
                     const std::string& package) {
   const auto file = std::make_shared<ModelFile>(ModelFile{path, package});
   WorkloadEntry entry =
-      drawn(name, what + ", as `tessera render` shows it (of the package " + package + ")",
+      drawn(name, description + ", as `tessera render` shows it (package " + package + ")",
             [file](int width, int height, std::uint32_t) { return drawing_of(*file, width, height); });
-  entry.lacks = [file] {
-    return std::filesystem::exists(file->path)
-               ? std::string()
-               : "needs " + file->path + " of Debian's package " + file->package;
+  entry.missing_requirement = [file]() -> std::string {
+    if (std::filesystem::exists(file->path)) return "";
+    return "needs " + file->path + " of the Debian package " + file->package;
   };
-  entry.prepare = [file, lacks = entry.lacks] {
-    const std::string reason = lacks();
+  entry.prepare = [file, missing_requirement = entry.missing_requirement] {
+    const std::string reason = missing_requirement();
     if (reason.empty() && !file->model) file->model = import_model(file->path, ModelUse::display);
     return reason;
   };
   return entry;
 }
 
-WorkloadEntry entry_outside_mean(const std::string& name, const std::string& what, const std::string& path,
-                                 const std::string& package) {
-  WorkloadEntry large = entry(name, what, path, package);
-  large.is_in_mean = false;
-  return large;
+WorkloadEntry entry_outside_mean(const std::string& name, const std::string& description,
+                                 const std::string& path, const std::string& package) {
+  WorkloadEntry result = entry(name, description, path, package);
+  result.is_in_mean = false;
+  return result;
 }
 
 }  // namespace
 
 std::vector<WorkloadEntry> model_workloads() {
-  // The largest that Debian 12 has.
+  // After the bunny: the largest models in Debian 12.
   return {entry("bunny", "the Stanford bunny, 69,666 triangles", "/usr/share/glmark2/models/bunny.obj",
                 "glmark2-data"),
           entry_outside_mean("model-suzanne", "a subdivided monkey's head, 251,904 triangles",
@@ -98,7 +97,7 @@ std::vector<WorkloadEntry> model_workloads() {
           entry_outside_mean("model-rs1", "a scanned part, 221,803 triangles",
                              "/usr/share/doc/opencv-doc/examples/surface_matching/data/rs1_normals.ply",
                              "opencv-doc"),
-          entry_outside_mean("model-robot", "a robot to print, 187,974 triangles",
+          entry_outside_mean("model-robot", "a 3D-printable robot, 187,974 triangles",
                              "/usr/share/cura/resources/meshes/UltimakerRobot_support.stl", "cura")};
 }
 

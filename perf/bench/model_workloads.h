@@ -1,4 +1,4 @@
-// Workloads that draw models of Debian's packages.
+// Workloads that draw models from Debian packages.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// In place of mesa_workload.cpp where OSMesa's header was not found.
+// Replaces mesa_workload.cpp if OSMesa's header was not found.
 #include <stdexcept>
 
 #include "perf/rivals/mesa_workload.h"
@@ -8,7 +8,8 @@ namespace {
 
 [[noreturn]] void fail() {
   throw std::runtime_error(
-      "--rivals: this program was built without GL/osmesa.h, of Debian's package libosmesa6-dev");
+      "--rivals is not available: this program was built without GL/osmesa.h (Debian package "
+      "libosmesa6-dev)");
 }
 
 }  // namespace

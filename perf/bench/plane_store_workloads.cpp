@@ -1,5 +1,4 @@
-// What it costs to bring tiles into planes, without what draws them. The kernels are those of the renderer,
-// called as it calls them.
+// Cost of storing tiles to planes, without drawing them: calls the kernels as the renderer does.
 #include <algorithm>
 #include <memory>
 #include <random>
@@ -16,7 +15,7 @@ namespace tessera::bench {
 using namespace detail;
 namespace {
 
-InstructionSet chosen(InstructionSet set) {
+InstructionSet resolved(InstructionSet set) {
   return set == InstructionSet::automatic ? available_isas().front() : set;
 }
 
@@ -24,17 +23,17 @@ struct alignas(kTileAlignment) Tile {
   std::uint32_t words[kMaxTileSize * kMaxTileSize];
 };
 
-/// Every worker has as many tiles, of random words, as the renderer keeps, and stores them wherever the
-/// window has some.
+/// Every worker has as many tiles as the renderer stores at once, filled with random pixels, and stores them
+/// at all tile positions of the window.
 class TileStoreWorkload : public Workload {
  public:
   TileStoreWorkload(const WorkloadSetup& setup, int bits)
       : grid_{setup.width, setup.height,
               setup.options.tile_size != 0 ? setup.options.tile_size : kMaxTileSize},
         worker_pool_(setup.options.threads, setup.options.executor),
-        store_(store_planes_for(chosen(setup.options.instruction_set))),
+        store_(store_planes_for(resolved(setup.options.instruction_set))),
         planes_(setup.width, setup.height, bits),
-        tiles_per_store_(tiles_per_store(chosen(setup.options.instruction_set), grid_.tile_size)),
+        tiles_per_store_(tiles_per_store(resolved(setup.options.instruction_set), grid_.tile_size)),
         tiles_(static_cast<std::size_t>(setup.options.threads * tiles_per_store_)),
         picture_(setup.width, setup.height) {
     std::mt19937 random(setup.seed);
@@ -48,10 +47,12 @@ class TileStoreWorkload : public Workload {
   }
 
   FrameStats draw() override {
-    const int in_line = kLinePixels / grid_.tile_size, strips = (grid_.columns() + in_line - 1) / in_line;
+    const int tiles_per_line = kLinePixels / grid_.tile_size;
+    const int strips = (grid_.columns() + tiles_per_line - 1) / tiles_per_line;
     worker_pool_.for_each(static_cast<std::size_t>(strips * grid_.rows()), [&](std::size_t task, int worker) {
-      const int row = static_cast<int>(task) / strips, first = static_cast<int>(task) % strips * in_line,
-                last = std::min(first + in_line, grid_.columns());
+      const int row = static_cast<int>(task) / strips;
+      const int first = static_cast<int>(task) % strips * tiles_per_line;
+      const int last = std::min(first + tiles_per_line, grid_.columns());
       const std::uint32_t* const* const tiles = tile_pixels_.data() + worker * tiles_per_store_;
       for (int column = first; column < last; column += tiles_per_store_)
         store_(
@@ -67,15 +68,15 @@ class TileStoreWorkload : public Workload {
     for (int y = 0; y < grid_.height_px; ++y)
       for (int x = 0; x < grid_.width_px; ++x)
         if (planes_.pixel(x, y) != expected(x, y))
-          return "pixel " + std::to_string(x) + " of row " + std::to_string(y) + " is not its tile's";
+          return "pixel " + std::to_string(x) + " of row " + std::to_string(y) + " differs from its tile";
     return {};
   }
 
   const Picture& picture() override {
-    const int to_24 = 24 - planes_.plane_count();
+    const int shift_to_24_bits = 24 - planes_.plane_count();
     for (int y = 0; y < grid_.height_px; ++y)
       for (int x = 0; x < grid_.width_px; ++x) {
-        const std::uint32_t word = planes_.pixel(x, y) << to_24;
+        const std::uint32_t word = planes_.pixel(x, y) << shift_to_24_bits;
         std::uint8_t* const pixel = picture_.rgba.data() + 4 * (static_cast<std::size_t>(y) *
                                                                     static_cast<std::size_t>(grid_.width_px) +
                                                                 static_cast<std::size_t>(x));
@@ -86,11 +87,10 @@ class TileStoreWorkload : public Workload {
   }
 
   FrameWork work(const FrameStats&) const override {
-    const std::uint64_t pixels = static_cast<std::uint64_t>(grid_.width_px) *
-                                 static_cast<std::uint64_t>(grid_.height_px),
-                        bytes = planes_.needed_bytes();
-    // What writes so many bytes of planes reads so many words of tiles: a copy, with something to do on the
-    // way.
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(grid_.width_px) * static_cast<std::uint64_t>(grid_.height_px);
+    const std::uint64_t bytes = planes_.needed_bytes();
+    // The roofline is a copy: reads the words of the tiles and writes the planes.
     return {.pixels = pixels,
             .bytes = bytes,
             .frame_buffer_bytes = bytes,
@@ -109,9 +109,9 @@ class TileStoreWorkload : public Workload {
   WorkerPool worker_pool_;
   StorePlanesFn* store_;
   BitplaneStack planes_;
-  int tiles_per_store_;  // tiles that are stored at once
+  int tiles_per_store_;
   std::vector<Tile> tiles_;
-  std::vector<const std::uint32_t*> tile_pixels_;  // of each of them
+  std::vector<const std::uint32_t*> tile_pixels_;  // per tile
   Picture picture_;
 };
 
@@ -120,10 +120,10 @@ class TileStoreWorkload : public Workload {
 std::vector<WorkloadEntry> plane_store_workloads() {
   std::vector<WorkloadEntry> list;
   for (const int bits : {1, 4, 8, 16, 24}) {
-    WorkloadEntry entry{.name = "store-" + std::to_string(bits),
-                        .what = "tiles that are there brought into " + std::to_string(bits) +
-                                (bits > 1 ? " planes" : " plane"),
-                        .is_in_mean = false};
+    WorkloadEntry entry{
+        .name = "store-" + std::to_string(bits),
+        .description = "existing tiles stored to " + std::to_string(bits) + (bits > 1 ? " planes" : " plane"),
+        .is_in_mean = false};
     entry.make = [bits](const WorkloadSetup& setup) {
       return std::make_unique<TileStoreWorkload>(setup, bits);
     };

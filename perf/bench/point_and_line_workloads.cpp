@@ -1,4 +1,4 @@
-// A million points and a million lines, all over the window.
+// A million points and a million lines, scattered over the window.
 #include <random>
 
 #include "perf/bench/drawn_workload.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kCount = 1000000;
 
-/// Numbers that are the same on every machine.
+/// Random numbers that are the same on every machine.
 class Rng {
  public:
   explicit Rng(std::uint32_t seed) : random_(seed) {}
@@ -28,8 +28,9 @@ Drawing scattered(int width, int height, std::uint32_t seed, Primitive primitive
   MeshData mesh;
   mesh.primitive = primitive;
   Rng rng(seed);
-  const float reach_x = 32.0f / static_cast<float>(width),
-              reach_y = 32.0f / static_cast<float>(height);  // 16 pixels
+  // 16 pixels in clip space.
+  const float reach_x = 32.0f / static_cast<float>(width);
+  const float reach_y = 32.0f / static_cast<float>(height);
   for (int i = 0; i < kCount; ++i) {
     const float x = rng.between(-1, 1), y = rng.between(-1, 1), z = rng.between(-1, 1);
     for (int end = 0; end < (primitive == Primitive::lines ? 2 : 1); ++end) {
@@ -41,13 +42,13 @@ Drawing scattered(int width, int height, std::uint32_t seed, Primitive primitive
   }
   drawing.meshes.push_back(std::move(mesh));
   drawing.gl_workload = [primitive](const Drawing& d) {
-    GlWorkload form{.mesh = d.meshes.front(),
-                    .shaders = rivals::window_shaders(rivals::Varying::colors),
-                    .tests_depth = true};
-    if (primitive == Primitive::lines)
-      form.max_mismatch_share =
-          0.1;  // who draws the pixel at an end, and what depth a pixel beside a line has, is left open
-    return form;
+    GlWorkload gl{.mesh = d.meshes.front(),
+                  .shaders = rivals::window_shaders(rivals::Varying::colors),
+                  .tests_depth = true};
+    // OpenGL leaves the end pixel of a line, and the depth of pixels next to the ideal line, to the
+    // implementation.
+    if (primitive == Primitive::lines) gl.max_mismatch_share = 0.1;
+    return gl;
   };
   drawing.record = [](const Drawing& d, Frame& frame) {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
@@ -58,8 +59,8 @@ Drawing scattered(int width, int height, std::uint32_t seed, Primitive primitive
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, const std::string& what, Primitive primitive) {
-  return drawn(name, what, [=](int width, int height, std::uint32_t seed) {
+WorkloadEntry entry(const std::string& name, const std::string& description, Primitive primitive) {
+  return drawn(name, description, [=](int width, int height, std::uint32_t seed) {
     return scattered(width, height, seed, primitive);
   });
 }
@@ -67,7 +68,7 @@ WorkloadEntry entry(const std::string& name, const std::string& what, Primitive 
 }  // namespace
 
 std::vector<WorkloadEntry> point_and_line_workloads() {
-  return {entry("points-1M", "a million points of a pixel, coloured, depth", Primitive::points),
+  return {entry("points-1M", "a million points of one pixel, coloured, depth", Primitive::points),
           entry("lines-1M", "a million lines of up to 16 pixels along each axis, coloured, depth",
                 Primitive::lines)};
 }

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kMiB = 1 << 20;
 
-// 10^9 bytes a second that a row is held against limits by.
+// Rate in 10^9 bytes/s that is compared with the roofline.
 double achieved_bandwidth(const Row& row) {
   return static_cast<double>(row.work.roofline_bytes) / row.ms.median * 1e-6;
 }
 
-// Of what was working memory in the first frame, where triangles are most of it.
+// Working memory of the first frame per triangle, if triangles make up most of it.
 std::optional<double> bytes_per_triangle(const Row& row) {
   constexpr std::uint64_t kMinTriangles = 100000;
   return row.work.triangles >= kMinTriangles
@@ -26,24 +26,24 @@ std::optional<double> bytes_per_triangle(const Row& row) {
 
 const char* name_of(Roofline roofline) {
   switch (roofline) {
-    case Roofline::l1_stores: return "stores in L1";
-    case Roofline::tile_stores: return "stores of a tile's words";
-    case Roofline::memory_stores: return "stores of as much";
-    case Roofline::memory_copies: return "copies of as much";
-    case Roofline::memory_loads: return "loads of as much";
+    case Roofline::l1_stores: return "L1 stores";
+    case Roofline::tile_stores: return "tile stores";
+    case Roofline::memory_stores: return "memory stores";
+    case Roofline::memory_copies: return "memory copies";
+    case Roofline::memory_loads: return "memory loads";
     case Roofline::none: break;
   }
   return "";
 }
 
-// Of a frame's count, in millions a second.
+// A count per frame in millions per second.
 double millions(std::uint64_t count, const Row& row) {
   return static_cast<double>(count) / row.ms.median * 1e-3;
 }
 
 struct Metric {
   const char* key;
-  std::optional<double> value;  // none: it was not measured, or means nothing here
+  std::optional<double> value;  // std::nullopt: not measured or not applicable
 };
 std::vector<Metric> metrics_of(const Row& row) {
   std::vector<Metric> metrics{{"median_ms", row.ms.median},
@@ -73,6 +73,12 @@ std::vector<Metric> metrics_of(const Row& row) {
   metrics.push_back({"share_of_l1_stores", row.l1_stores > 0
                                                ? std::optional(achieved_bandwidth(row) / row.l1_stores)
                                                : std::nullopt});
+  const auto to_baseline = [&row](double Ratio::*part) {
+    return row.to_baseline ? std::optional(row.to_baseline->ratio.*part) : std::nullopt;
+  };
+  metrics.push_back({"ratio_to_baseline", to_baseline(&Ratio::value)});
+  metrics.push_back({"low_ratio_to_baseline", to_baseline(&Ratio::low)});
+  metrics.push_back({"high_ratio_to_baseline", to_baseline(&Ratio::high)});
   metrics.push_back(
       {"cycles", row.counts ? std::optional(static_cast<double>(row.counts->cycles)) : std::nullopt});
   metrics.push_back({"instructions", row.counts ? std::optional(static_cast<double>(row.counts->instructions))
@@ -80,17 +86,17 @@ std::vector<Metric> metrics_of(const Row& row) {
   return metrics;
 }
 
-std::vector<Metric> metrics_of(const MachineBandwidth& limits) {
-  return {{"l1_stores", limits.l1_stores},
-          {"tile_stores", limits.tile_stores},
-          {"frame_stores", limits.frame_stores},
-          {"frame_copies", limits.frame_copies},
-          {"memory_stores", limits.memory_stores},
-          {"memory_loads", limits.memory_loads},
-          {"memory_loads_single_core", limits.memory_loads_single_core}};
+std::vector<Metric> metrics_of(const MachineBandwidth& bandwidth) {
+  return {{"l1_stores", bandwidth.l1_stores},
+          {"tile_stores", bandwidth.tile_stores},
+          {"frame_stores", bandwidth.frame_stores},
+          {"frame_copies", bandwidth.frame_copies},
+          {"memory_stores", bandwidth.memory_stores},
+          {"memory_loads", bandwidth.memory_loads},
+          {"memory_loads_single_core", bandwidth.memory_loads_single_core}};
 }
 
-// What each of a machine's lines tells of, and what.
+// The properties of the machine and their values.
 std::vector<std::pair<std::string, std::string>> facts_of(const std::string& machine) {
   std::vector<std::pair<std::string, std::string>> facts;
   std::istringstream lines(machine);
@@ -100,7 +106,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const std::string& mac
   return facts;
 }
 
-// RFC 4180: what has commas, quotes or ends of lines stands in quotes.
+// RFC 4180: fields with commas, quotes or line breaks are quoted.
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -117,7 +123,7 @@ std::string setting_text(int width, int height, int threads, const std::string& 
 
 std::string table_heading() {
   return formatted("%-22s %9s  %-19s %9s %9s %9s %9s %8s %8s %8s %8s %8s %8s %6s\n", "workload", "median ms",
-                   "quartiles", "95 %", "99 %", "cold", "Mfrag/s", "Mtri/s", "Mvert/s", "Mpix/s", "GB/s",
+                   "quartiles", "95 %", "99 %", "cold ms", "Mfrag/s", "Mtri/s", "Mvert/s", "Mpix/s", "GB/s",
                    "ns/pixel", "peak MiB", "B/tri");
 }
 
@@ -137,40 +143,46 @@ std::string table_summary(const Report& report) {
   if (report.noise)
     text += formatted("noise: %s against itself: ratio %.3f (%.3f .. %.3f)\n", report.noise_of.c_str(),
                       report.noise->value, report.noise->low, report.noise->high);
-  const auto rate = [](const std::optional<double>& roofline) {
-    return roofline ? formatted("%.1f", *roofline) : std::string("(no memory)");
+  const auto rate = [](const std::optional<double>& value) {
+    return value ? formatted("%.1f", *value) : std::string("(no memory)");
   };
-  text += "limits, GB/s: stores in L1 " + rate(report.bandwidth.l1_stores) + ", of 64 KiB a thread " +
-          rate(report.bandwidth.tile_stores) + ", of a frame " + rate(report.bandwidth.frame_stores) +
-          ", copies of a frame " + rate(report.bandwidth.frame_copies) + ", stores of 256 MiB " +
-          rate(report.bandwidth.memory_stores) + ", loads of 256 MiB " + rate(report.bandwidth.memory_loads) +
-          " (by one core " + rate(report.bandwidth.memory_loads_single_core) + ")\n";
+  text += "bandwidth, GB/s: L1 stores " + rate(report.bandwidth.l1_stores) +
+          ", stores of 64 KiB per thread " + rate(report.bandwidth.tile_stores) + ", of one frame " +
+          rate(report.bandwidth.frame_stores) + ", of 256 MiB " + rate(report.bandwidth.memory_stores) +
+          "; copies of one frame " + rate(report.bandwidth.frame_copies) + "; loads of 256 MiB " +
+          rate(report.bandwidth.memory_loads) +
+          " (one core: " + rate(report.bandwidth.memory_loads_single_core) + ")\n";
   if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
-    text += formatted("a cache line goes from core to core in %.0f ns; in %.0f ns before all this\n",
+    text += formatted("core-to-core latency: %.0f ns (%.0f ns before the measurements)\n",
                       report.core_to_core_ns[1], report.core_to_core_ns[0]);
   const auto is_timed = [](const Row& row) { return row.frames > 0; };
   const auto is_counted = [](const Row& row) { return row.counts.has_value(); };
   if (std::any_of(report.rows.begin(), report.rows.end(), is_timed) &&
       std::none_of(report.rows.begin(), report.rows.end(), is_counted))
-    text += "hardware counters: the system gives none\n";
+    text += "hardware counters: not available\n";
   for (const Row& row : report.rows)
     if (row.counts && row.counts->cycles > 0)
       text +=
-          formatted("%-22s %.2f million cycles a frame, %.2f instructions a cycle\n", row.name.c_str(),
+          formatted("%-22s %.2f million cycles per frame, %.2f instructions per cycle\n", row.name.c_str(),
                     1e-6 * static_cast<double>(row.counts->cycles),
                     static_cast<double>(row.counts->instructions) / static_cast<double>(row.counts->cycles));
+  for (const Row& row : report.rows)
+    if (row.to_baseline)
+      text += formatted("%-22s takes %.3f (%.3f .. %.3f) times as long as %s\n", row.name.c_str(),
+                        row.to_baseline->ratio.value, row.to_baseline->ratio.low, row.to_baseline->ratio.high,
+                        row.to_baseline->baseline.c_str());
   for (const Row& row : report.rows) {
     if (row.frames == 0 || row.work.roofline == Roofline::none) continue;
     if (row.roofline > 0) {
-      const auto share_of = [&](double most, Roofline roofline) {
-        return formatted(", %.0f %% of %s (%.1f GB/s)", 100 * achieved_bandwidth(row) / most,
-                         name_of(roofline), most);
+      const auto share_of = [&](double limit, Roofline roofline) {
+        return formatted(", %.0f %% of %s (%.1f GB/s)", 100 * achieved_bandwidth(row) / limit,
+                         name_of(roofline), limit);
       };
       text += formatted("%-22s moves %.1f GB/s", row.name.c_str(), achieved_bandwidth(row)) +
               share_of(row.roofline, row.work.roofline) +
               (row.l1_stores > 0 ? share_of(row.l1_stores, Roofline::l1_stores) : "") + "\n";
     } else {
-      text += formatted("%-22s no memory for %s\n", row.name.c_str(), name_of(row.work.roofline));
+      text += formatted("%-22s no memory to measure %s\n", row.name.c_str(), name_of(row.work.roofline));
     }
   }
   return text;
@@ -178,7 +190,7 @@ std::string table_summary(const Report& report) {
 
 nlohmann::ordered_json report_json(const Report& report) {
   nlohmann::ordered_json json;
-  for (const auto& [what, value] : facts_of(report.machine)) json["machine"][what] = value;
+  for (const auto& [property, value] : facts_of(report.machine)) json["machine"][property] = value;
   json["width"] = report.width;
   json["height"] = report.height;
   json["threads"] = report.threads;
@@ -210,6 +222,7 @@ nlohmann::ordered_json report_json(const Report& report) {
     if (!row.fault.empty()) entry["fault"] = row.fault;
     else add(entry, metrics_of(row));
     if (row.fault.empty() && row.roofline > 0) entry["roofline"] = name_of(row.work.roofline);
+    if (row.to_baseline) entry["baseline"] = row.to_baseline->baseline;
     json["workloads"].push_back(std::move(entry));
   }
   return json;
@@ -219,13 +232,13 @@ std::string report_csv(const Report& report) {
   std::string text = "workload,threads,frames";
   for (const Metric& metric : metrics_of(Row{})) text += std::string(",") + metric.key;
   text += ",fault,width,height,instruction_set,tile_size,seed,kept_on_cores,noise_low_ratio,noise_high_ratio";
-  // The same in every row, so that rows of several files may stand together.
+  // Repeated in every row, so that rows of several files can be concatenated.
   std::string shared = formatted(",%d,%d,%s,%d,%u,", report.width, report.height,
                                  report.instruction_set.c_str(), report.tile_size, report.seed);
   for (const int core : report.cores) shared += (shared.ends_with(',') ? "" : " ") + std::to_string(core);
   shared += report.noise ? formatted(",%.6g,%.6g", report.noise->low, report.noise->high) : ",,";
-  for (const auto& [what, value] : facts_of(report.machine)) {
-    text += "," + csv_field(what);
+  for (const auto& [property, value] : facts_of(report.machine)) {
+    text += "," + csv_field(property);
     shared += "," + csv_field(value);
   }
   text += "\n";

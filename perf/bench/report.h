@@ -1,4 +1,4 @@
-// What was measured, for people and for programs.
+// Results as a table, as JSON and as CSV.
 #pragma once
 
 #include <array>
@@ -15,45 +15,49 @@
 
 namespace tessera::bench {
 
-/// In 10^9 bytes a second; none where there was no memory for it.
+/// 10^9 bytes/s; std::nullopt if there was no memory for the measurement.
 struct MachineBandwidth {
-  std::optional<double> l1_stores, frame_stores, frame_copies;
-  std::optional<double> tile_stores;  ///< of 64 KiB for each thread: the words of a tile of 128x128 pixels
-  std::optional<double> memory_stores, memory_loads, memory_loads_single_core;  ///< of 256 MiB
+  std::optional<double> l1_stores;
+  std::optional<double> frame_stores;   ///< memset of one image
+  std::optional<double> frame_copies;   ///< memcpy of one image
+  std::optional<double> tile_stores;    ///< 64 KiB per thread: 4 bytes per pixel of a 128x128 tile
+  std::optional<double> memory_stores;  ///< 256 MiB
+  std::optional<double> memory_loads;   ///< 256 MiB
+  std::optional<double> memory_loads_single_core;
 };
 
 struct Report {
-  std::string machine;  ///< lines of "what   value"
-  int width = 0, height = 0, threads = 0;
+  std::string machine;  ///< lines of "property   value"
+  int width = 0, height = 0;
+  int threads = 0;
   std::string instruction_set;
-  int tile_size = 0;  ///< pixels; 0: chosen by the frame
+  int tile_size = 0;  ///< pixels; 0: chosen per frame
   std::uint32_t seed = 1;
-  std::vector<int> cores{};  ///< that the process was kept on; empty: all it may use
+  std::vector<int> cores{};  ///< logical CPUs that the process is bound to; empty: all allowed ones
   MachineBandwidth bandwidth;
-  std::array<double, 2> core_to_core_ns{};  ///< before and after everything else was measured
+  std::array<double, 2> core_to_core_ns{};  ///< before and after all other measurements
   std::vector<Row> rows;
   std::optional<RivalComparisons> rival_comparisons{};
   std::vector<Scaling> scaling{};
-  std::optional<CoreModel> core_model{};  ///< that scaling was computed with
-  std::optional<Ratio> noise{};           ///< of a workload to itself; empty: it was not measured
-  std::string noise_of;                   ///< its name
+  std::optional<CoreModel> core_model{};  ///< used for the predictions in `scaling`
+  std::optional<Ratio> noise{};           ///< of a workload to itself; std::nullopt: not measured
+  std::string noise_of;                   ///< name of that workload
 };
 
-/// "1920x1080, 2 threads, avx512": what medians depend on beside the machine.
+/// "1920x1080, 2 threads, avx512": the settings that medians depend on, apart from the machine.
 std::string setting_text(int width, int height, int threads, const std::string& instruction_set);
 inline std::string setting_text(const Report& report) {
   return setting_text(report.width, report.height, report.threads, report.instruction_set);
 }
 
-/// One line for a row; the heading of those lines.
 std::string table_heading();
 std::string table_line(const Row& row);
-/// What stands below the table.
+/// Lines below the table: noise, bandwidth, counters, ratios to baselines and shares of rooflines.
 std::string table_summary(const Report& report);
 
 nlohmann::ordered_json report_json(const Report& report);
-/// A row for each workload, which ends with what all share: size, instruction set and other options, the
-/// noise, the machine. Those with a fault have no figures.
+/// One row per workload. Columns common to all rows come last: settings, noise and machine.
+/// Rows with a fault have no figures.
 std::string report_csv(const Report& report);
 
 }  // namespace tessera::bench

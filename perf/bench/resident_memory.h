@@ -1,17 +1,18 @@
-// What of this process stands in memory.
+// Resident memory of this process.
 #pragma once
 
 #include <cstdint>
 
 namespace tessera::bench {
 
-/// Bytes; 0 where the system does not tell.
+/// Bytes; 0 if the system does not report them.
 struct ResidentMemory {
-  std::uint64_t now = 0, peak = 0;
+  std::uint64_t now = 0;
+  std::uint64_t peak = 0;
 };
 ResidentMemory resident_memory();
 
-/// Gives back what is free, and lets the peak start from there.
+/// Returns free heap memory to the system and restarts the peak from the current size.
 void reset_peak();
 
 }  // namespace tessera::bench

@@ -13,13 +13,14 @@ namespace {
 constexpr int kMaxLevelDifference = 2;
 
 double mismatch_share_of(const Picture& a, const Picture& b) {
-  std::size_t off = 0;
+  std::size_t mismatches = 0;
   for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
-    int most = 0;
-    for (std::size_t c = i; c < i + 3; ++c) most = std::max(most, std::abs(a.rgba[c] - b.rgba[c]));
-    off += most > kMaxLevelDifference ? 1 : 0;
+    int difference = 0;
+    for (std::size_t c = i; c < i + 3; ++c)
+      difference = std::max(difference, std::abs(a.rgba[c] - b.rgba[c]));
+    mismatches += difference > kMaxLevelDifference ? 1 : 0;
   }
-  return static_cast<double>(off) / (static_cast<double>(a.rgba.size()) / 4);
+  return static_cast<double>(mismatches) / (static_cast<double>(a.rgba.size()) / 4);
 }
 
 }  // namespace
@@ -33,9 +34,10 @@ Comparison compare_with_rival(Candidate ours, Candidate rival, double max_mismat
     return std::string();
   };
   rival.validate = [&](const Picture& drawn) {
-    if (!picture) return std::string();  // ours is wrong
+    if (!picture) return std::string();  // ours has a fault
     if (drawn.width != picture->width || drawn.height != picture->height)
-      return std::string("the rival's picture has another size");
+      return formatted("the rival's picture is %dx%d, expected %dx%d", drawn.width, drawn.height,
+                       picture->width, picture->height);
     result.mismatch_share = mismatch_share_of(*picture, drawn);
     if (result.mismatch_share <= max_mismatch_share) return std::string();
     return formatted(
@@ -52,22 +54,22 @@ Comparison compare_with_rival(Candidate ours, Candidate rival, double max_mismat
 std::optional<Comparison> compare_with_rival(const WorkloadEntry& entry, const WorkloadSetup& setup,
                                              rivals::MesaDriver driver, const MeasureOptions& options,
                                              const HardwareCounters& counters) {
-  const std::optional<GlWorkload> form = entry.gl_workload(setup);
-  if (!form) return std::nullopt;
+  const std::optional<GlWorkload> gl = entry.gl_workload(setup);
+  if (!gl) return std::nullopt;
   const int threads = setup.options.threads;
   const Candidate ours{.name = entry.name, .make = [&] { return entry.make(setup); }, .threads = threads};
   const Candidate rival{
       .name = entry.name,
-      .make = [&] { return rivals::mesa_workload(*form, setup.width, setup.height, driver, threads); },
+      .make = [&] { return rivals::mesa_workload(*gl, setup.width, setup.height, driver, threads); },
       .threads = threads};
-  Comparison result = compare_with_rival(ours, rival, form->max_mismatch_share, options, counters);
+  Comparison result = compare_with_rival(ours, rival, gl->max_mismatch_share, options, counters);
   result.is_in_mean = entry.is_in_mean;
   return result;
 }
 
 std::string comparison_heading() {
-  return formatted("%-22s %9s %9s %7s  %-16s %12s\n", "workload", "ours, ms", "rival, ms", "ratio",
-                   "interval", "pixels off %");
+  return formatted("%-22s %9s %9s %7s  %-16s %12s\n", "workload", "ours ms", "rival ms", "ratio", "interval",
+                   "mismatch %");
 }
 
 std::string comparison_line(const Comparison& comparison) {
@@ -82,21 +84,22 @@ std::string comparison_line(const Comparison& comparison) {
 std::string comparison_summary(const RivalComparisons& rival_comparisons) {
   double sum = 0;
   int count = 0;
-  const Comparison* least = nullptr;
+  const Comparison* lowest = nullptr;
   for (const Comparison& comparison : rival_comparisons.comparisons) {
     if (!comparison.is_in_mean || !comparison.fault().empty()) continue;
     sum += std::log(comparison.ratio().value);
     ++count;
-    if (least == nullptr || comparison.ratio().value < least->ratio().value) least = &comparison;
+    if (lowest == nullptr || comparison.ratio().value < lowest->ratio().value) lowest = &comparison;
   }
-  std::string text = "\nrival: " + rival_comparisons.rival +
-                     formatted(
-                         "; to change one pixel takes it %.3f ms, and %.3f in a window of one pixel: the "
-                         "difference is its copy of the picture\n",
-                         rival_comparisons.finish_ms, rival_comparisons.finish_pixel_ms);
+  std::string text =
+      "\nrival: " + rival_comparisons.rival +
+      formatted(
+          "; a frame that changes one pixel takes %.3f ms, in a window of one pixel %.3f ms: the "
+          "difference is the copy of the picture\n",
+          rival_comparisons.finish_ms, rival_comparisons.finish_pixel_ms);
   if (count != 0)
-    text += formatted("geometric mean of %d ratios: %.2f; least: %.2f (%s)\n", count, std::exp(sum / count),
-                      least->ratio().value, least->ours.name.c_str());
+    text += formatted("geometric mean of %d ratios: %.2f; lowest: %.2f (%s)\n", count, std::exp(sum / count),
+                      lowest->ratio().value, lowest->ours.name.c_str());
   return text;
 }
 

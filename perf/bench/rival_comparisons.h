@@ -1,4 +1,4 @@
-// Workloads beside the same ones as rivals draw them, in turns.
+// Workloads measured in turns with a rival renderer that draws the same picture.
 #pragma once
 
 #include <optional>
@@ -13,28 +13,29 @@
 namespace tessera::bench {
 
 struct Comparison {
-  Row ours, rivals;
-  double mismatch_share = 0;  ///< of pixels, more than two levels
+  Row ours;
+  Row rivals;
+  double mismatch_share = 0;  ///< share of pixels that differ by more than two levels
   bool is_in_mean = true;
-  /// How many times as long the rival takes.
+  /// Time of the rival over ours: above 1, ours is faster.
   Ratio ratio() const { return ratio_of(rivals.ms, ours.ms); }
-  /// Of whichever of the two cannot be compared; empty: both can.
+  /// Why the two cannot be compared; empty: they can.
   const std::string& fault() const { return !ours.fault.empty() ? ours.fault : rivals.fault; }
 };
 
 struct RivalComparisons {
-  std::string rival;     ///< its own name for itself
-  double finish_ms = 0;  ///< what a frame takes it that changes one pixel
-  double finish_pixel_ms =
-      0;  ///< and in a window of one pixel: what finish_ms is beyond that is a copy of the picture
+  std::string rival;     ///< the rival's name and version, as it reports them
+  double finish_ms = 0;  ///< rival's time for a frame that changes one pixel
+  /// The same in a window of one pixel. The difference to `finish_ms` is the rival's copy of the picture.
+  double finish_pixel_ms = 0;
   std::vector<Comparison> comparisons;
 };
 
-/// Draws both, and, where each has its right picture and the two are the same, times them in turns.
+/// Draws both and, if both pictures are right and match, times them in turns.
 /// @param max_mismatch_share  share of pixels that may differ by more than two levels
 Comparison compare_with_rival(Candidate ours, Candidate rival, double max_mismatch_share,
                               const MeasureOptions& options, const HardwareCounters& counters);
-/// Of a workload with Mesa. Empty where rivals do not draw it.
+/// Compares a workload with Mesa; std::nullopt if rivals cannot draw it.
 std::optional<Comparison> compare_with_rival(const WorkloadEntry& entry, const WorkloadSetup& setup,
                                              rivals::MesaDriver driver, const MeasureOptions& options,
                                              const HardwareCounters& counters);

@@ -22,22 +22,23 @@ namespace tessera::bench {
 namespace {
 
 constexpr int kCores[] = {2, 4, 8, 16, 32, 64, 128};
-constexpr double kCostSeconds = 2;   // of a measured row's, for each count of cores
-constexpr int kBreakdownCores = 64;  // whose seconds are shown in parts
+constexpr double kCostSeconds = 2;   // per core count, in units of MeasureOptions::seconds
+constexpr int kBreakdownCores = 64;  // core count whose time is broken down
 static_assert(std::find(std::begin(kCores), std::end(kCores), kBreakdownCores) != std::end(kCores));
 
 double length(const FrameTask& task) { return task.end - task.begin; }
 
-/// Until the last core is done, as WorkerPool hands tasks out.
-/// @param tasks  in the order of their numbers
-/// @param taking  seconds before each
-double makespan(std::span<const FrameTask> tasks, double taking, int cores) {
+/// Seconds until the last core is done, with WorkerPool's shares and work stealing.
+/// @param tasks             in task order
+/// @param dispatch_seconds  per task
+double makespan(std::span<const FrameTask> tasks, double dispatch_seconds, int cores) {
   const std::size_t workers = std::min(static_cast<std::size_t>(cores), tasks.size());
-  std::vector<std::size_t> next;  // of each share
+  std::vector<std::size_t> next;  // next task of each share
   for (std::size_t s = 0; s < workers; ++s) next.push_back(first_of_share(tasks.size(), workers, s));
   struct Core {
     double free_at = 0;
-    std::size_t worker = 0, shares_done = 0;  // its own is the first
+    std::size_t worker = 0;
+    std::size_t shares_done = 0;  // starting with its own share
     bool operator>(const Core& other) const {
       return std::tie(free_at, worker) > std::tie(other.free_at, other.worker);
     }
@@ -52,7 +53,7 @@ double makespan(std::span<const FrameTask> tasks, double taking, int cores) {
     while (core.shares_done < workers && next[share()] == first_of_share(tasks.size(), workers, share() + 1))
       ++core.shares_done;
     if (core.shares_done == workers) continue;
-    core.free_at += taking + length(tasks[next[share()]++]);
+    core.free_at += dispatch_seconds + length(tasks[next[share()]++]);
     end = std::max(end, core.free_at);
     cores_free.push(core);
   }
@@ -67,17 +68,18 @@ std::array<std::pair<const char*, double>, 4> parts_of(const FrameTimeBreakdown&
 }
 
 double barrier_seconds(int threads) {
-  constexpr int kRuns = 9, kTimes = 500;
+  constexpr int kRuns = 9;
+  constexpr int kPasses = 500;
   WorkerPool worker_pool(threads);
-  double least = std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
   for (int run = 0; run < kRuns; ++run) {
     const auto start = std::chrono::steady_clock::now();
-    for (int i = 0; i < kTimes; ++i)
+    for (int i = 0; i < kPasses; ++i)
       worker_pool.for_each(static_cast<std::size_t>(threads), [](std::size_t, int) {});
-    least = std::min(
-        least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimes);
+    min = std::min(min,
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kPasses);
   }
-  return least;
+  return min;
 }
 
 }  // namespace
@@ -90,13 +92,14 @@ CoreModel measure_core_model(int threads) {
 
 FrameTimeBreakdown predict_frame_time(const TracedFrame& frame, int cores, const CoreModel& model) {
   FrameTimeBreakdown seconds{.serial = frame.seconds - frame.task_seconds() - frame.dispatch_seconds};
-  const double taking = frame.dispatch_seconds / std::max<double>(1, static_cast<double>(frame.tasks.size()));
-  const double begins = cores > 1 ? model.barrier_seconds : 0;
-  double passes = frame.untraced_calls * begins;
+  const double dispatch =
+      frame.dispatch_seconds / std::max<double>(1, static_cast<double>(frame.tasks.size()));
+  const double barrier = cores > 1 ? model.barrier_seconds : 0;
+  double passes = frame.untraced_calls * barrier;
   for (auto first = frame.tasks.begin(); first != frame.tasks.end();) {
     const auto last = std::find_if(first, frame.tasks.end(),
                                    [&](const FrameTask& task) { return task.pass != first->pass; });
-    passes += makespan({first, last}, taking, cores) + begins;
+    passes += makespan({first, last}, dispatch, cores) + barrier;
     first = last;
   }
   seconds.busy = (frame.task_seconds() + frame.dispatch_seconds) / cores;
@@ -108,9 +111,10 @@ FrameTimeBreakdown predict_frame_time(const TracedFrame& frame, int cores, const
 }
 
 std::vector<int> measured_threads(int threads) {
-  constexpr int kEach = 8;
+  constexpr int kMaxConsecutive = 8;
   std::vector<int> counts;
-  for (int count = 2; count < threads; count = count < kEach ? count + 1 : 2 * count) counts.push_back(count);
+  for (int count = 2; count < threads; count = count < kMaxConsecutive ? count + 1 : 2 * count)
+    counts.push_back(count);
   if (threads > 1) counts.push_back(threads);
   return counts;
 }
@@ -143,13 +147,13 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
     scaling.measured.emplace_back(count, ratio_of(rows[0].ms, rows[1].ms));
   }
   if (!counts.empty()) {
-    const Candidate apart{.name = entry.name,
-                          .make = [&] { return std::make_unique<IndependentRenderers>(entry, setup); },
-                          .threads = 2};
-    const std::vector<Row> rows = measure(std::vector{on(1), apart}, options, counters);
-    if (std::none_of(rows.begin(), rows.end(), [](const Row& row) {
-          return row.is_aborted;
-        })) {  // what was measured before is worth more than both
+    const Candidate independent{.name = entry.name,
+                                .make = [&] { return std::make_unique<IndependentRenderers>(entry, setup); },
+                                .threads = 2};
+    const std::vector<Row> rows = measure(std::vector{on(1), independent}, options, counters);
+    const bool is_aborted =
+        std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.is_aborted; });
+    if (!is_aborted) {  // otherwise keep what was measured so far
       note_fault(rows);
       if (!scaling.fault.empty()) return scaling;
       scaling.independent_renderers = IndependentRenderers::speed_up(rows[0].ms, rows[1].ms);
@@ -159,10 +163,10 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
     for (const int cores : kCores) {
       const std::vector<TracedFrame> costs =
           measure_frame_costs(entry, setup, std::array{1, cores}, kCostSeconds * options.seconds);
-      const FrameTimeBreakdown one = predict_frame_time(costs[0], 1, model),
-                               seconds = predict_frame_time(costs[1], cores, model);
-      scaling.predicted.emplace_back(cores, one.sum() / seconds.sum());
-      if (cores == kBreakdownCores) scaling.on_64_cores = seconds;
+      const FrameTimeBreakdown on_one_core = predict_frame_time(costs[0], 1, model);
+      const FrameTimeBreakdown on_many_cores = predict_frame_time(costs[1], cores, model);
+      scaling.predicted.emplace_back(cores, on_one_core.sum() / on_many_cores.sum());
+      if (cores == kBreakdownCores) scaling.on_64_cores = on_many_cores;
     }
   } catch (const std::bad_alloc&) {
     scaling.not_computed = kOutOfMemory;

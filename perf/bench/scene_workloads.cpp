@@ -1,4 +1,4 @@
-// Layers that hide each other, and draws that each have a state of their own.
+// Overdraw, and many draws with different states.
 #include <cmath>
 
 #include "perf/bench/bench_meshes.h"
@@ -11,7 +11,7 @@ namespace {
 constexpr int kDepthComplexity = 8;
 constexpr int kDraws = 1000;
 
-/// Grids of 20,000 triangles each.
+/// Full-window grids of 20,000 triangles at 8 depths.
 Drawing overdraw_layers(int width, int height, bool front_first) {
   Drawing drawing;
   drawing.format = {.width = width, .height = height, .stencil_bits = 0};
@@ -28,7 +28,7 @@ Drawing overdraw_layers(int width, int height, bool front_first) {
   return drawing;
 }
 
-/// The state of draw k: no two of a thousand are alike.
+/// State of draw k; the states of 1000 draws all differ.
 DrawState state_of(int k, const Texture& texture, const Matrix& place) {
   DrawState state;
   state.lighting = k % 2 == 0;
@@ -43,7 +43,7 @@ DrawState state_of(int k, const Texture& texture, const Matrix& place) {
   return state;
 }
 
-/// Side by side over the window.
+/// Patches of 32 triangles in a regular arrangement over the window, one draw each.
 Drawing many_draws(int width, int height, int draws) {
   Drawing drawing;
   drawing.format = {.width = width, .height = height, .stencil_bits = 0};
@@ -51,8 +51,8 @@ Drawing many_draws(int width, int height, int draws) {
   const std::vector<std::uint8_t> texels{255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255};
   drawing.textures.emplace_back(
       TextureImage{.pixels = texels.data(), .width = 2, .height = 2, .channels = 4});
-  const int across = static_cast<int>(std::lround(std::sqrt(1.6 * draws))),
-            down = (draws + across - 1) / across;
+  const int columns = static_cast<int>(std::lround(std::sqrt(1.6 * draws)));
+  const int rows = (draws + columns - 1) / columns;
   drawing.record = [=](const Drawing& d, Frame& frame) {
     Light light;
     light.position = {0, 0, 1, 0};
@@ -60,33 +60,33 @@ Drawing many_draws(int width, int height, int draws) {
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     for (int k = 0; k < draws; ++k) {
       const Matrix place =
-          translate(2.0 * (k % across + 0.5) / across - 1, 2.0 * (k / across + 0.5) / down - 1, 0) *
-          scale(1.0 / across, 1.0 / down, 1);
+          translate(2.0 * (k % columns + 0.5) / columns - 1, 2.0 * (k / columns + 0.5) / rows - 1, 0) *
+          scale(1.0 / columns, 1.0 / rows, 1);
       frame.draw(d.meshes.front().view(), state_of(k, d.textures.front(), place));
     }
   };
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, const std::string& what,
+WorkloadEntry entry(const std::string& name, const std::string& description,
                     std::function<Drawing(int width, int height)> make) {
-  return drawn_outside_mean(name, what, [make = std::move(make)](int width, int height, std::uint32_t) {
-    return make(width, height);
-  });
+  return drawn_outside_mean(
+      name, description,
+      [make = std::move(make)](int width, int height, std::uint32_t) { return make(width, height); });
 }
 
 }  // namespace
 
 WorkloadEntry patches_in_separate_draws(int draws) {
   return entry("draws-" + std::to_string(draws),
-               std::to_string(draws) + " draws of 32 triangles, each with a state of its own",
+               std::to_string(draws) + " draws of 32 triangles, all with different states",
                [draws](int w, int h) { return many_draws(w, h, draws); });
 }
 
 std::vector<WorkloadEntry> scene_workloads() {
-  return {entry("depth-8-front", "8 layers of 20k triangles over the whole window, the nearest first",
+  return {entry("depth-8-front", "8 full-screen layers of 20k triangles, front to back",
                 [](int w, int h) { return overdraw_layers(w, h, true); }),
-          entry("depth-8-back", "8 layers of 20k triangles over the whole window, the farthest first",
+          entry("depth-8-back", "8 full-screen layers of 20k triangles, back to front",
                 [](int w, int h) { return overdraw_layers(w, h, false); }),
           patches_in_separate_draws(kDraws)};
 }

@@ -1,4 +1,4 @@
-// Executors that pretend to have many workers, so that a frame is cut as for a machine with as many cores.
+// Executors that simulate many workers, so that a frame is split as on a machine with that many cores.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace tessera::bench {
 
-/// Whose workers come one after the other, and how long they run.
+/// Executor that runs its workers serially and times them.
 class SimulatedWorkers : public Executor {
  public:
   explicit SimulatedWorkers(int workers) : workers_(workers) {}
@@ -26,8 +26,9 @@ class SimulatedWorkers : public Executor {
     seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
     ++calls_;
   }
-  /// In which workers ran, since it was asked last; the caller waits for them.
+  /// Seconds in run() since the last call of this function.
   double take_seconds() { return std::exchange(seconds_, 0); }
+  /// Calls of run() since the last call of this function.
   int take_calls() { return std::exchange(calls_, 0); }
 
  protected:
@@ -43,11 +44,12 @@ class SimulatedWorkers : public Executor {
 
  private:
   using Clock = std::chrono::steady_clock;
-  int workers_, calls_ = 0;
+  int workers_;
+  int calls_ = 0;
   double seconds_ = 0;
 };
 
-/// On the caller's thread: what the tasks themselves take.
+/// Runs workers on the calling thread: measures the tasks themselves.
 class WorkersOnCallingThread : public SimulatedWorkers {
  public:
   using SimulatedWorkers::SimulatedWorkers;
@@ -56,13 +58,14 @@ class WorkersOnCallingThread : public SimulatedWorkers {
   void run_all(const Job& job) override { job(); }
 };
 
-/// On a thread of their own: for what the caller does alone. After all of a frame's tasks its core's caches
-/// would hold nothing of that; on many cores it takes a small share of them, and what the others leave for it
-/// comes from their caches. Meanwhile the caller reads other memory, for that share.
+/// Runs workers on another thread: measures the serial work of the caller. If the caller's core ran all tasks
+/// of a frame, they would evict the data of its serial work; with many cores it runs a small share of them,
+/// and the results of the others come from their caches. While workers run, the caller reads unrelated memory
+/// in place of its share.
 class WorkersOnOtherCore : public SimulatedWorkers {
  public:
-  /// @param core  that the thread is kept on, if the system lets it
-  /// @param share_bytes  that the caller reads while workers run
+  /// @param core         logical CPU that the thread is bound to, if the system permits it
+  /// @param share_bytes  bytes that the caller reads while workers run
   WorkersOnOtherCore(int workers, int core, std::size_t share_bytes)
       : SimulatedWorkers(workers), share_(share_bytes / sizeof(std::uint64_t)), thread_([this, core] {
           set_thread_affinity({&core, 1});
@@ -76,7 +79,7 @@ class WorkersOnOtherCore : public SimulatedWorkers {
   void run_all(const Job& job) override {
     hand_over(job);
     sum_ = std::accumulate(share_.begin(), share_.end(), std::uint64_t{0});
-    while (turn_.load() == Turn::workers) std::this_thread::yield();  // awake, as a worker is
+    while (turn_.load() == Turn::workers) std::this_thread::yield();  // spin, as a worker does
   }
   void hand_over(const Job& job) {
     job_ = job;
@@ -96,7 +99,7 @@ class WorkersOnOtherCore : public SimulatedWorkers {
   volatile std::uint64_t sum_ = 0;
   Job job_;
   std::atomic<Turn> turn_{Turn::callers};
-  std::jthread thread_;  // last: it uses the others
+  std::jthread thread_;  // last member: uses the others
 };
 
 }  // namespace tessera::bench

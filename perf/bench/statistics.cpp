@@ -8,9 +8,9 @@ namespace tessera::bench {
 
 Statistics statistics_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  const auto percentile = [&](double part) {
+  const auto percentile = [&](double share) {
     return values[static_cast<std::size_t>(
-        std::max(std::ceil(part * static_cast<double>(values.size())) - 1, 0.0))];
+        std::max(std::ceil(share * static_cast<double>(values.size())) - 1, 0.0))];
   };
   const auto count = static_cast<double>(values.size());
   const auto rank = static_cast<std::size_t>(std::max(std::round(count / 2 - 0.98 * std::sqrt(count)), 1.0));

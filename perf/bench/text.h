@@ -1,4 +1,4 @@
-// Numbers in lines of tables.
+// printf-style formatting into std::string.
 #pragma once
 
 #include <cstdio>

@@ -12,7 +12,8 @@
 namespace tessera::bench {
 namespace {
 
-constexpr int kWarmUps = 3, kFrames = 9;
+constexpr int kWarmUps = 3;
+constexpr int kFrames = 9;
 
 const char* name_of(FrameStage stage) {
   switch (stage) {
@@ -40,7 +41,7 @@ double ns_per_pixel(const FrameTask& task) {
   return 1e9 * (task.end - task.begin) / (static_cast<double>(task.pixels.width) * task.pixels.height);
 }
 
-// Red rises first, then green, then blue.
+// Maps 0 to 1 to black, red, yellow, white.
 void paint(std::uint8_t* rgba, double share) {
   for (int c = 0; c < 3; ++c)
     rgba[c] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(3 * share - c, 0.0, 1.0)));
@@ -62,8 +63,8 @@ double TracedFrame::task_seconds() const {
 }
 
 TracedWorkload::TracedWorkload(const WorkloadEntry& entry, WorkloadSetup setup) : name_(entry.name) {
-  setup.options.trace = [this](std::span<const FrameTask> of_frame) {
-    tasks_.assign(of_frame.begin(), of_frame.end());
+  setup.options.trace = [this](std::span<const FrameTask> tasks) {
+    tasks_.assign(tasks.begin(), tasks.end());
   };
   workload_ = entry.make(setup);
 }

@@ -11,17 +11,20 @@ namespace tessera::bench {
 
 struct TracedFrame {
   std::string workload;
-  double seconds = 0;              ///< from its first command to its end; of costs their sum
+  /// From the first command to the end of finish(); for measured costs, the sum of all parts.
+  double seconds = 0;
   std::vector<FrameTask> tasks{};  ///< in the order in which they began
-  double dispatch_seconds = 0;     ///< where workers run, but not at tasks: they take their next ones, or do
-                                   ///< what no task tells of; of costs only
-  int untraced_calls = 0;          ///< for workers, who run in them all the same; of costs only
+  /// Time in which workers run outside tasks: they take their next task or do untraced work.
+  /// Set by measure_task_costs() and measure_frame_costs() only.
+  double dispatch_seconds = 0;
+  /// Executor calls that no task belongs to. Set by the same functions only.
+  int untraced_calls = 0;
   FrameWork work{};
 
-  double task_seconds() const;  ///< of all workers together
+  double task_seconds() const;  ///< sum over all workers
 };
 
-/// A workload whose frames tell of their tasks.
+/// A workload whose frames report their tasks.
 class TracedWorkload {
  public:
   TracedWorkload(const WorkloadEntry& entry, WorkloadSetup setup);
@@ -36,19 +39,19 @@ class TracedWorkload {
   std::unique_ptr<Workload> workload_{};
 };
 
-/// Of several frames after the first ones the one in the middle, by time.
+/// The frame of median duration among several frames after a warm-up.
 TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup);
 
-/// As Chrome's trace viewer (chrome://tracing, ui.perfetto.dev) shows it: workloads are its processes,
-/// workers its threads. Source: Trace Event Format, complete events ("X"), times in microseconds.
+/// JSON for Chrome's trace viewer (chrome://tracing, ui.perfetto.dev): one process per workload, one thread
+/// per worker. Source: Trace Event Format, complete events ("X"), times in microseconds.
 std::string chrome_trace(const std::vector<TracedFrame>& frames);
 
-/// What pixels of a frame cost, tile by tile: from black over red and yellow to white, which is what the
-/// dearest tile costs.
+/// Cost per pixel of each tile, from black through red and yellow to white, the most expensive tile.
 struct Heatmap {
   Picture picture;
-  double max_ns_per_pixel = 0;  ///< white
+  double max_ns_per_pixel = 0;  ///< shown as white
 };
+/// The picture is empty if the frame has no tile tasks.
 Heatmap heatmap(const TracedFrame& frame);
 
 }  // namespace tessera::bench

@@ -1,5 +1,4 @@
-// What `tessera bench` measures: frames that draw the same again and again, each of which knows what has to
-// come out.
+// What `tessera bench` measures: workloads that draw the same frame repeatedly and can check its picture.
 #pragma once
 
 #include <cstddef>
@@ -23,31 +22,30 @@ using namespace program;
 struct WorkloadSetup {
   int width = 1920, height = 1080;  ///< pixels
   RendererOptions options{};
-  std::uint32_t seed = 1;  ///< of what is random in it
+  std::uint32_t seed = 1;  ///< for random content
 };
 
-/// What the machine does at best with a frame's bytes.
+/// Upper bound on the rate at which this machine can move a frame's bytes.
 enum class Roofline : std::uint8_t {
   none,
-  l1_stores,      ///< memset of 16 KiB for each thread, again and again
-  tile_stores,    ///< memset of as many bytes as a tile's words for each thread, again and again: the first
-                  ///< cache may be too small for them
+  l1_stores,      ///< repeated memset of 16 KiB per thread
+  tile_stores,    ///< repeated memset of one tile's pixel data per thread; may exceed the L1 cache
   memory_stores,  ///< memset of as many bytes as the frame stores
-  memory_copies,  ///< memcpy of them: bytes read and bytes written both count
-  memory_loads    ///< memchr of them, for what is not there
+  memory_copies,  ///< memcpy of as many bytes as the frame moves; reads and writes both count
+  memory_loads    ///< memchr, without a match, over as many bytes as the frame reads
 };
 
-/// What a frame was made of, for rates.
+/// Amount of work in one frame, for rates.
 struct FrameWork {
   std::uint64_t pixels = 0;     ///< of the frame buffer
-  std::uint64_t triangles = 0;  ///< or lines, or points
+  std::uint64_t triangles = 0;  ///< triangles, lines or points
   std::uint64_t vertices = 0;
-  std::uint64_t fragments = 0;  ///< shaded, or blended, or tested: as the workload counts them
-  std::uint64_t bytes = 0;      ///< read and written in memory by its nature: meshes, planes, the image
-  std::uint64_t frame_buffer_bytes = 0;  ///< of the frame buffer's planes and the image
-  Roofline roofline = Roofline::none;    ///< what it is held against
-  std::uint64_t roofline_bytes = 0;
-  std::uint64_t tile_bytes = 0;  ///< a tile's words, where they are what the roofline stores
+  std::uint64_t fragments = 0;           ///< shaded, blended or tested, as the workload defines
+  std::uint64_t bytes = 0;               ///< minimum memory traffic: meshes, planes, image
+  std::uint64_t frame_buffer_bytes = 0;  ///< size of the frame buffer's planes and the image
+  Roofline roofline = Roofline::none;
+  std::uint64_t roofline_bytes = 0;  ///< bytes per frame that count towards the roofline
+  std::uint64_t tile_bytes = 0;      ///< pixel data of one tile; Roofline::tile_stores only
 };
 
 class Workload {
@@ -55,26 +53,30 @@ class Workload {
   virtual ~Workload() = default;
   /// Records and finishes one frame.
   virtual FrameStats draw() = 0;
-  /// Draws a frame and says what is wrong with it, in one line; empty: nothing.
+  /// Draws a frame and checks it. Returns the fault in one line, or an empty string.
   virtual std::string fault() = 0;
-  /// Of the last frame.
+  /// Picture of the last frame.
   virtual const Picture& picture() = 0;
   virtual FrameWork work(const FrameStats& stats) const = 0;
 };
 
 struct WorkloadEntry {
   std::string name;
-  std::string what;        ///< one line, for the list
-  bool is_in_mean = true;  ///< of ratios to rivals
+  std::string description;  ///< one line, for --list
+  bool is_in_mean = true;   ///< whether its ratio to a rival counts in the geometric mean
+  std::string baseline{};   ///< workload to which this one's time is compared, in turns; empty: none
   std::function<std::unique_ptr<Workload>(const WorkloadSetup&)> make{};
-  std::function<std::optional<GlWorkload>(const WorkloadSetup&)>
-      gl_workload{};                       ///< the same for rivals, where they can draw it
-  std::function<std::string()> lacks{};    ///< what it needs and is not installed, or nothing. May be empty
-  std::function<std::string()> prepare{};  ///< reads what it needs, before any thread runs; says why it
-                                           ///< cannot, or nothing. May be empty
+  /// Equivalent OpenGL workload; std::nullopt if rivals cannot draw it.
+  std::function<std::optional<GlWorkload>(const WorkloadSetup&)> gl_workload{};
+  /// Returns what has to be installed first, or an empty string. Optional.
+  std::function<std::string()> missing_requirement{};
+  /// Reads input files; called before any thread starts. Returns why it failed, or an empty string. Optional.
+  std::function<std::string()> prepare{};
 };
 
-/// All of them, in the order of the tables.
+/// All workloads, in table order.
 const std::vector<WorkloadEntry>& workloads();
+/// The workload of exactly this name, or nullptr.
+const WorkloadEntry* find_workload(std::string_view name);
 
 }  // namespace tessera::bench

@@ -1,5 +1,5 @@
-// Shaders in which every constant stands as a literal: Debian's llvmpipe reads uniforms by scalar gathers,
-// which costs it up to 2.7 times as much.
+// Shaders with all constants as literals: Debian's llvmpipe reads uniforms by scalar gathers, which makes it
+// up to 2.7 times slower.
 #pragma once
 
 #include <vector>
@@ -9,22 +9,22 @@
 
 namespace tessera::rivals {
 
-/// Positions stand in clip space already.
 enum class Varying { nothing, colors, texcoords };
-/// @param color  of all, where nothing varies
+/// Shaders for positions in clip space.
+/// @param color  colour of all fragments with Varying::nothing
 bench::ShaderSources window_shaders(Varying varying, const Color& color = {});
 
-/// A draw under the lighting equation, as Tessera has it.
+/// A draw with Tessera's lighting equation.
 struct LitDraw {
   Camera camera{};
-  Matrix transform{};  ///< world from object: moves and turns, and scales alike in all directions
+  Matrix transform{};  ///< world_from_object: rotation, translation and uniform scale only
   std::vector<Light> lights{};
-  LightModel model{};  ///< of one side
+  LightModel model{};  ///< one-sided
   Material material{};
   Shading shading = Shading::gouraud;
-  bool normalizes = true;  ///< normals of vertices
+  bool normalizes = true;  ///< whether vertex normals are normalized
 };
-/// @throws std::runtime_error for what these shaders do not know
-bench::ShaderSources lit_shaders(const LitDraw& form);
+/// @throws std::runtime_error for two-sided lighting and for highlights other than Blinn's
+bench::ShaderSources lit_shaders(const LitDraw& draw);
 
 }  // namespace tessera::rivals

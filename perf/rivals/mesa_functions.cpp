@@ -14,14 +14,15 @@ class Library {
  public:
   Library() : handle_(dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL)) {
     if (handle_ == nullptr)
-      throw std::runtime_error(std::string("rivals need ") + kLibrary + " of Debian's package libosmesa6");
+      throw std::runtime_error(std::string("cannot load ") + kLibrary +
+                               ", which --rivals needs (Debian package libosmesa6)");
     address_of_ = symbol<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress");
   }
   template <class Function>
   Function symbol(const char* name) const {
     return checked(reinterpret_cast<Function>(dlsym(handle_, name)), name);
   }
-  /// A function of OpenGL.
+  /// Loads an OpenGL function.
   template <class Function>
   void load(Function& function, const char* name) const {
     function = checked(reinterpret_cast<Function>(address_of_(name)), name);
@@ -30,7 +31,7 @@ class Library {
  private:
   template <class Function>
   static Function checked(Function function, const char* name) {
-    if (function == nullptr) throw std::runtime_error(std::string(kLibrary) + " has no " + name);
+    if (function == nullptr) throw std::runtime_error(std::string(kLibrary) + " has no function " + name);
     return function;
   }
   void* handle_;
@@ -38,7 +39,7 @@ class Library {
 };
 
 MesaFunctions load() {
-  const Library library;  // stays open: threads of its own run in it
+  const Library library;  // never closed: its threads keep running
   MesaFunctions f{};
   f.create_context = library.symbol<decltype(f.create_context)>("OSMesaCreateContextAttribs");
   f.make_current = library.symbol<decltype(f.make_current)>("OSMesaMakeCurrent");

@@ -1,9 +1,9 @@
-// OSMesa, opened when it is asked for: the program does not depend on it, and frames that are measured
-// without it do not share a process with its 100 MB.
+// Functions of OSMesa, loaded on first use: the program does not depend on it, and measurements without
+// rivals do not share a process with its 100 MB.
 #pragma once
 
 #include <GL/osmesa.h>
-// osmesa.h has OpenGL's own types
+// needs the OpenGL types of osmesa.h
 #include <GL/glext.h>
 
 namespace tessera::rivals {
@@ -49,7 +49,7 @@ struct MesaFunctions {
   PFNGLVERTEXATTRIBPOINTERPROC vertex_attrib_pointer;
 };
 
-/// @throws std::runtime_error where there is no OSMesa, or one without a function
+/// @throws std::runtime_error if OSMesa or one of its functions is missing
 const MesaFunctions& mesa();
 
 }  // namespace tessera::rivals

@@ -14,13 +14,17 @@ namespace {
 
 using bench::GlWorkload;
 
-std::string gl_string(GLenum what) { return reinterpret_cast<const char*>(mesa().get_string(what)); }
+std::string gl_string(GLenum name) { return reinterpret_cast<const char*>(mesa().get_string(name)); }
 
-/// A context that draws into a picture, rows from the top.
+const char* driver_name(MesaDriver driver) {
+  return driver == MesaDriver::llvmpipe ? "llvmpipe" : "softpipe";
+}
+
+/// A context that draws into a picture, top row first.
 class MesaContext {
  public:
   MesaContext(int width, int height, MesaDriver driver, int threads) : picture_(width, height) {
-    setenv("GALLIUM_DRIVER", driver == MesaDriver::llvmpipe ? "llvmpipe" : "softpipe", 1);
+    setenv("GALLIUM_DRIVER", driver_name(driver), 1);
     setenv("LP_NUM_THREADS", threads == 1 ? "0" : std::to_string(threads).c_str(), 1);
     constexpr int kAttributes[] = {OSMESA_FORMAT,
                                    OSMESA_RGBA,
@@ -32,12 +36,12 @@ class MesaContext {
                                    OSMESA_COMPAT_PROFILE,
                                    0};
     context_ = mesa().create_context(kAttributes, nullptr);
-    if (context_ == nullptr) throw std::runtime_error("OSMesa makes no context");
+    if (context_ == nullptr) throw std::runtime_error("OSMesa cannot create a context");
     make_current();
-    const std::string wanted = driver == MesaDriver::llvmpipe ? "llvmpipe" : "softpipe",
-                      found = gl_string(GL_RENDERER);
+    const std::string wanted = driver_name(driver);
+    const std::string found = gl_string(GL_RENDERER);
     if (found.find(wanted) == std::string::npos)
-      throw std::runtime_error("OSMesa's driver is \"" + found + "\", expected " + wanted);
+      throw std::runtime_error("the OSMesa driver is \"" + found + "\", expected " + wanted);
     mesa().pixel_store(OSMESA_Y_UP, 0);
   }
   ~MesaContext() { mesa().destroy_context(context_); }
@@ -47,7 +51,7 @@ class MesaContext {
   void make_current() {
     if (!mesa().make_current(context_, picture_.rgba.data(), GL_UNSIGNED_BYTE, picture_.width,
                              picture_.height))
-      throw std::runtime_error("OSMesa does not draw into a picture of this size");
+      throw std::runtime_error("OSMesa cannot draw into a picture of this size");
   }
   const Picture& picture() const { return picture_; }
 
@@ -63,12 +67,12 @@ void link_and_use_program(const bench::ShaderSources& sources) {
     const char* text = source.c_str();
     mesa().shader_source(shader, 1, &text, nullptr);
     mesa().compile_shader(shader);
-    GLint is_good = 0;
-    mesa().get_shaderiv(shader, GL_COMPILE_STATUS, &is_good);
-    if (!is_good) {
+    GLint is_compiled = 0;
+    mesa().get_shaderiv(shader, GL_COMPILE_STATUS, &is_compiled);
+    if (!is_compiled) {
       char log[2000];
       mesa().get_shader_info_log(shader, sizeof log, nullptr, log);
-      throw std::runtime_error(std::string("a shader of the rival does not compile: ") + log);
+      throw std::runtime_error(std::string("a shader of the rival fails to compile: ") + log);
     }
     mesa().attach_shader(program, shader);
   };
@@ -105,13 +109,13 @@ GLint filter_of(TextureFilter filter) {
   }
 }
 
-void upload_texture(const GlWorkload& form) {
+void upload_texture(const GlWorkload& workload) {
   mesa().bind_texture(GL_TEXTURE_2D, 0);
-  mesa().tex_image_2d(GL_TEXTURE_2D, 0, GL_RGBA8, form.texture_size, form.texture_size, 0, GL_RGBA,
-                      GL_UNSIGNED_BYTE, form.texels.data());
+  mesa().tex_image_2d(GL_TEXTURE_2D, 0, GL_RGBA8, workload.texture_size, workload.texture_size, 0, GL_RGBA,
+                      GL_UNSIGNED_BYTE, workload.texels.data());
   mesa().generate_mipmap(GL_TEXTURE_2D);
-  mesa().tex_parameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter_of(form.sampler.mag));
-  mesa().tex_parameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter_of(form.sampler.min));
+  mesa().tex_parameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter_of(workload.sampler.mag));
+  mesa().tex_parameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter_of(workload.sampler.min));
 }
 
 GLenum mode_of(Primitive primitive) {
@@ -119,45 +123,45 @@ GLenum mode_of(Primitive primitive) {
     case Primitive::points: return GL_POINTS;
     case Primitive::lines: return GL_LINES;
     case Primitive::triangles: return GL_TRIANGLES;
-    default: throw std::runtime_error("the rival draws points, lines and triangles");
+    default: throw std::runtime_error("the rival draws points, lines and triangles only");
   }
 }
 
 class MesaWorkload : public bench::Workload {
  public:
-  MesaWorkload(const GlWorkload& form, int width, int height, MesaDriver driver, int threads)
-      : window_(width, height, driver, threads), mode_(mode_of(form.mesh.primitive)) {
-    link_and_use_program(form.shaders);
-    set_vertex_attribute(0, form.mesh.position_components, form.mesh.positions);
-    set_vertex_attribute(1, 3, form.mesh.normals);
-    set_vertex_attribute(2, 4, form.mesh.colors);
-    set_vertex_attribute(3, 2, form.mesh.texcoords);
-    if (!form.mesh.indices.empty()) upload_buffer(GL_ELEMENT_ARRAY_BUFFER, form.mesh.indices);
-    index_count_ = static_cast<GLsizei>(form.mesh.indices.size());
-    revealed_indices_ = form.revealed_indices;
-    vertex_count_ = static_cast<GLsizei>(form.mesh.vertex_count());
-    if (form.texture_size != 0) upload_texture(form);
+  MesaWorkload(const GlWorkload& workload, int width, int height, MesaDriver driver, int threads)
+      : window_(width, height, driver, threads), mode_(mode_of(workload.mesh.primitive)) {
+    link_and_use_program(workload.shaders);
+    set_vertex_attribute(0, workload.mesh.position_components, workload.mesh.positions);
+    set_vertex_attribute(1, 3, workload.mesh.normals);
+    set_vertex_attribute(2, 4, workload.mesh.colors);
+    set_vertex_attribute(3, 2, workload.mesh.texcoords);
+    if (!workload.mesh.indices.empty()) upload_buffer(GL_ELEMENT_ARRAY_BUFFER, workload.mesh.indices);
+    index_count_ = static_cast<GLsizei>(workload.mesh.indices.size());
+    revealed_indices_ = workload.revealed_indices;
+    vertex_count_ = static_cast<GLsizei>(workload.mesh.vertex_count());
+    if (workload.texture_size != 0) upload_texture(workload);
     mesa().disable(GL_DITHER);
-    if (form.culls_back) mesa().enable(GL_CULL_FACE);
-    if (form.tests_depth) {
+    if (workload.culls_back) mesa().enable(GL_CULL_FACE);
+    if (workload.tests_depth) {
       mesa().enable(GL_DEPTH_TEST);
       clear_mask_ |= kDepthAndStencil;
     }
-    if (!form.writes_color) mesa().color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    if (form.blends) {
+    if (!workload.writes_color) mesa().color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    if (workload.blends) {
       mesa().enable(GL_BLEND);
       mesa().blend_func(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     }
-    if (form.increments_stencil) {
+    if (workload.increments_stencil) {
       mesa().enable(GL_STENCIL_TEST);
       mesa().clear_stencil(1);
       mesa().stencil_func(GL_LESS, 0, 0xff);
       mesa().stencil_op(GL_KEEP, GL_KEEP, GL_INCR);
       clear_mask_ |= kDepthAndStencil;
     }
-    mesa().clear_color(form.clear_color.r, form.clear_color.g, form.clear_color.b, 1);
+    mesa().clear_color(workload.clear_color.r, workload.clear_color.g, workload.clear_color.b, 1);
     if (mesa().get_error() != GL_NO_ERROR)
-      throw std::runtime_error("the rival's set-up ends in an OpenGL error");
+      throw std::runtime_error("the set-up of the rival causes an OpenGL error");
   }
 
   FrameStats draw() override {
@@ -170,7 +174,7 @@ class MesaWorkload : public bench::Workload {
   std::string fault() override {
     draw();
     if (revealed_indices_ > 0) reveal();
-    return mesa().get_error() == GL_NO_ERROR ? "" : "an OpenGL error";
+    return mesa().get_error() == GL_NO_ERROR ? "" : "drawing causes an OpenGL error";
   }
   const Picture& picture() override { return window_.picture(); }
   bench::FrameWork work(const FrameStats&) const override { return {}; }
@@ -187,20 +191,22 @@ class MesaWorkload : public bench::Workload {
     mesa().color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   }
 
-  static constexpr GLbitfield kDepthAndStencil =
-      GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;  // they share words: one alone would be read and written
+  // Depth and stencil share words: clearing one of them alone would read and write them.
+  static constexpr GLbitfield kDepthAndStencil = GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;
 
   MesaContext window_;
   GLenum mode_;
-  GLsizei index_count_ = 0, vertex_count_ = 0, revealed_indices_ = 0;
+  GLsizei index_count_ = 0;
+  GLsizei vertex_count_ = 0;
+  GLsizei revealed_indices_ = 0;
   GLbitfield clear_mask_ = GL_COLOR_BUFFER_BIT;
 };
 
 }  // namespace
 
-std::unique_ptr<bench::Workload> mesa_workload(const GlWorkload& form, int width, int height,
+std::unique_ptr<bench::Workload> mesa_workload(const GlWorkload& workload, int width, int height,
                                                MesaDriver driver, int threads) {
-  return std::make_unique<MesaWorkload>(form, width, height, driver, threads);
+  return std::make_unique<MesaWorkload>(workload, width, height, driver, threads);
 }
 
 double mesa_finish_ms(int width, int height, MesaDriver driver, int threads) {

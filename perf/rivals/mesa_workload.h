@@ -1,4 +1,4 @@
-// A workload as Mesa draws it, through OSMesa.
+// Workloads drawn by Mesa through OSMesa.
 #pragma once
 
 #include <memory>
@@ -9,21 +9,22 @@
 
 namespace tessera::rivals {
 
-/// What of Mesa draws: its compiler of shaders on 2 threads or more, or its interpreter.
+/// llvmpipe compiles shaders and uses several threads; softpipe interprets them.
 enum class MesaDriver { llvmpipe, softpipe };
 
-/// @param threads  what llvmpipe may use; Mesa reads it, and the driver, when its first context is made: the
-/// same for all of a process.
-///     With one it draws on the thread that calls it.
-/// @throws std::runtime_error where OSMesa is missing, has another driver, or does not take a shader
-std::unique_ptr<bench::Workload> mesa_workload(const bench::GlWorkload& form, int width, int height,
+/// @param threads  number of threads that llvmpipe may use; with 1 it draws on the calling thread.
+///                 Mesa reads driver and thread count when the first context of the process is made, so they
+///                 must be the same for all
+/// @throws std::runtime_error if OSMesa is missing, has another driver, or rejects a shader
+std::unique_ptr<bench::Workload> mesa_workload(const bench::GlWorkload& workload, int width, int height,
                                                MesaDriver driver, int threads);
 
-/// Time in ms, the median of many, of a frame that changes one pixel: what finishing a frame costs by itself.
-/// What that is more than in a window of one pixel is a copy of the picture.
+/// Median time in ms of a frame that changes one pixel: the fixed cost of finishing a frame. The difference
+/// to that in a window of one pixel is the copy of the picture.
 double mesa_finish_ms(int width, int height, MesaDriver driver, int threads);
 
-/// The driver's own name for itself, with its version. @throws as mesa_workload
+/// Name and version that the driver reports.
+/// @throws std::runtime_error as mesa_workload() does
 std::string mesa_name(MesaDriver driver, int threads);
 
 }  // namespace tessera::rivals

@@ -8,23 +8,22 @@
 namespace tessera::bench {
 namespace {
 
-TEST(Cores, KeepAThreadWhereItIsPut) {
+TEST(BenchCores, BindsThreadToOneCore) {
   const std::vector<int> before = allowed_cores();
   ASSERT_FALSE(before.empty());
-  if (!set_thread_affinity(before)) GTEST_SKIP() << "the system lets no thread choose its cores";
+  if (!set_thread_affinity(before)) GTEST_SKIP() << "the system does not permit thread affinity";
   std::thread([&] {
     EXPECT_TRUE(set_thread_affinity({&before.back(), 1}));
     EXPECT_EQ(allowed_cores(), std::vector<int>{before.back()});
-    EXPECT_EQ(core_to_core_ns(), 0) << "there is no other core";
+    EXPECT_EQ(core_to_core_ns(), 0) << "only one core is allowed";
     EXPECT_FALSE(set_thread_affinity({}));
   }).join();
-  EXPECT_EQ(allowed_cores(), before) << "of other threads";
+  EXPECT_EQ(allowed_cores(), before) << "other threads are not affected";
 }
 
-// No cache answers another core within a nanosecond, and the slowest machines stay below a tenth of a
-// millisecond.
-TEST(Cores, TellHowFarApartTheyAre) {
-  if (!set_thread_affinity(allowed_cores())) GTEST_SKIP() << "the system lets no thread choose its cores";
+// No cache answers another core within 1 ns; even the slowest machines stay below 0.1 ms.
+TEST(BenchCores, MeasuresPlausibleLatency) {
+  if (!set_thread_affinity(allowed_cores())) GTEST_SKIP() << "the system does not permit thread affinity";
   const double ns = core_to_core_ns();
   if (allowed_cores().size() < 2) {
     EXPECT_EQ(ns, 0);

@@ -1,4 +1,4 @@
-// What a workload says of its own pictures: nothing is timed that drew too little, or nothing.
+// Checks that workloads make of their own pictures: frames that draw too little are faults.
 #include "perf/bench/drawn_workload.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kSide = 16;
 
-/// A layer of depth alone, if it is drawn at all, which white reveals.
-Drawing depth_alone(bool is_drawn) {
+/// A depth-only layer, drawn or left out, that `reveal` shows in white.
+Drawing depth_only(bool is_drawn) {
   Drawing drawing{.format = {.width = kSide, .height = kSide}};
   drawing.meshes.push_back(window_grid(1, 1));
   drawing.meshes.back().colors.clear();
@@ -33,35 +33,35 @@ std::unique_ptr<Workload> workload_of(const std::function<Drawing()>& make) {
       .make({.width = kSide, .height = kSide, .options = {.threads = 1}});
 }
 
-TEST(BenchDrawing, RevealsWhatHasNoColorToItsJudgeAlone) {
-  const auto workload = workload_of([] { return depth_alone(true); });
+TEST(BenchDrawnWorkload, RevealsDepthInCheckedFramesOnly) {
+  const auto workload = workload_of([] { return depth_only(true); });
   EXPECT_EQ(workload->fault(), "");
   EXPECT_EQ(workload->picture().rgba[0], 255);
-  EXPECT_EQ(workload->draw().shaded_pixels, 0u) << "what is timed";
+  EXPECT_EQ(workload->draw().shaded_pixels, 0u) << "timed frames";
   EXPECT_EQ(workload->picture().rgba[0], 0);
 }
 
-TEST(BenchDrawing, OfNothingIsNotTimed) {
-  EXPECT_EQ(workload_of([] { return depth_alone(false); })->fault(), "shaded 0 pixels, expected 256");
+TEST(BenchDrawnWorkload, ReportsMissingFragments) {
+  EXPECT_EQ(workload_of([] { return depth_only(false); })->fault(), "shaded 0 pixels, expected 256");
 }
 
-TEST(BenchDrawing, KnowsTheWordsOfItsTiles) {
+TEST(BenchDrawnWorkload, LimitsTileBytesToTheFrame) {
   for (const int tile_size : {32, 64}) {
     const auto fill = drawn("fill", "", [](int, int, std::uint32_t) {
-      Drawing drawing = depth_alone(true);
+      Drawing drawing = depth_only(true);
       drawing.format = {.width = 48, .height = 200};
       drawing.pixel_bytes = 8;
       return drawing;
     });
     const auto workload = fill.make({.options = {.threads = 1, .tile_size = tile_size}});
     const FrameWork work = workload->work(workload->draw());
-    EXPECT_EQ(work.tile_bytes, tile_size == 32 ? 8u * 32 * 32 : 8u * 48 * 64) << "no more than the frame has";
+    EXPECT_EQ(work.tile_bytes, tile_size == 32 ? 8u * 32 * 32 : 8u * 48 * 64) << tile_size;
   }
 }
 
-TEST(BenchDrawing, SaysWhatItsPictureLacks) {
+TEST(BenchDrawnWorkload, ReportsFaultOfThePicture) {
   const auto white = [] {
-    Drawing drawing = depth_alone(true);
+    Drawing drawing = depth_only(true);
     drawing.fault = [](const Picture& picture) { return picture.rgba[0] == 255 ? "too white" : ""; };
     return drawing;
   };

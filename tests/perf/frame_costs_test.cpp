@@ -1,4 +1,4 @@
-// What frames cost where one thread does what many would: which parts there are, and who draws when.
+// Costs of frames that are split for many workers but run on one thread.
 #include "perf/bench/frame_costs.h"
 
 #include <algorithm>
@@ -35,8 +35,8 @@ TracedFrame cost_of(const WorkloadEntry& entry, int workers) {
       .front();
 }
 
-// What one worker does between its tasks is neither theirs nor the frame's own.
-TEST(FrameCosts, AreOfTasksTheirTakingAndTheRest) {
+// Dispatch is neither task time nor serial time.
+TEST(BenchFrameCosts, SplitsTimeIntoTasksDispatchAndSerial) {
   const WorkloadEntry grid = grid_of(64);
   for (const int workers : {1, 2, 64}) {
     const TracedFrame frame = cost_of(grid, workers);
@@ -49,29 +49,27 @@ TEST(FrameCosts, AreOfTasksTheirTakingAndTheRest) {
   }
 }
 
-TEST(FrameCosts, CountCallsForWorkersThatNoTaskTellsOf) {
+TEST(BenchFrameCosts, CountsUntracedExecutorCalls) {
   EXPECT_EQ(cost_of(grid_of(64), 2).untraced_calls, 0);
-  EXPECT_EQ(cost_of(grid_of(256), 2).untraced_calls, 1) << "so many indices that recording asks for help";
-  EXPECT_EQ(cost_of(grid_of(4, 17), 2).untraced_calls, 1) << "so many draws that planning does";
+  EXPECT_EQ(cost_of(grid_of(256), 2).untraced_calls, 1) << "recording checks many indices on the workers";
+  EXPECT_EQ(cost_of(grid_of(4, 17), 2).untraced_calls, 1) << "planning spreads many draws over the workers";
   const WorkloadEntry onto_planes = drawn("onto", "", [](int, int, std::uint32_t) {
     Drawing drawing{.format = {.width = 256, .height = 256}};
-    drawing.before = [](const Drawing&, Frame& frame) {
+    drawing.initial_frame = [](const Drawing&, Frame& frame) {
       frame.clear({.color = Color{1, 0, 0, 1}, .depth = 1.0});
     };
     drawing.record = [](const Drawing&, Frame&) {};
     return drawing;
   });
-  EXPECT_EQ(cost_of(onto_planes, 2).untraced_calls, 0)
-      << "what is drawn before the first frame is none of it";
+  EXPECT_EQ(cost_of(onto_planes, 2).untraced_calls, 0) << "the initial frame does not count";
 }
 
-/// What is seen of workloads from outside: for how many threads each frame is drawn, and by which of them.
 struct Log {
-  std::vector<std::pair<int, const void*>> frames;
+  std::vector<std::pair<int, const void*>> frames;  ///< thread count and workload of each frame
 };
-class Noted : public Workload {
+class LoggedWorkload : public Workload {
  public:
-  Noted(Log& log, int threads) : log_(log), threads_(threads) {}
+  LoggedWorkload(Log& log, int threads) : log_(log), threads_(threads) {}
   FrameStats draw() override {
     log_.frames.emplace_back(threads_, this);
     return {};
@@ -86,16 +84,16 @@ class Noted : public Workload {
   Picture picture_{1, 1};
 };
 
-// A clock that changes meanwhile changes for all of them.
-TEST(FrameCosts, AreMeasuredInTurns) {
+// Turns, so that a changing clock affects all counts alike.
+TEST(BenchFrameCosts, MeasuresWorkerCountsInTurns) {
   Log log;
-  const WorkloadEntry entry{.name = "noted", .what = "", .make = [&log](const WorkloadSetup& setup) {
-                              return std::make_unique<Noted>(log, setup.options.threads);
+  const WorkloadEntry entry{.name = "logged", .description = "", .make = [&log](const WorkloadSetup& setup) {
+                              return std::make_unique<LoggedWorkload>(log, setup.options.threads);
                             }};
   const std::vector<TracedFrame> costs = measure_frame_costs(entry, {}, std::array{1, 64}, 0);
   ASSERT_EQ(costs.size(), 2u);
   for (const TracedFrame& cost : costs) EXPECT_GE(cost.seconds, 0);
-  // The first two frames of each, and then three turns of three frames with tasks noted and three without.
+  // The first two frames of each, then three turns of three traced and three untraced frames.
   std::vector<int> threads;
   for (const auto& [count, drawn_by] : log.frames) threads.push_back(count);
   std::vector<int> expected{1, 1, 64, 64};
@@ -103,18 +101,18 @@ TEST(FrameCosts, AreMeasuredInTurns) {
     for (const int count : {1, 64}) expected.insert(expected.end(), 6, count);
   EXPECT_EQ(threads, expected);
   EXPECT_EQ(log.frames[4].second, log.frames[0].second);
-  EXPECT_EQ(log.frames[16].second, log.frames[0].second) << "the same in each turn";
+  EXPECT_EQ(log.frames[16].second, log.frames[0].second) << "the same workload in each turn";
   EXPECT_NE(log.frames[7].second, log.frames[0].second);
   const auto start = std::chrono::steady_clock::now();
   measure_frame_costs(entry, {}, std::array{1, 64}, 0.1);
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(100))
-      << "they go on for their time";
+      << "turns last for the given time";
 }
 
-/// Each frame has as many tasks as `tasks` says of it; those beyond the list as the last.
-class Traced : public Workload {
+/// Frame i reports tasks[i] tasks; later frames as many as the last element.
+class TaskCountWorkload : public Workload {
  public:
-  Traced(const WorkloadSetup& setup, std::vector<std::size_t> tasks)
+  TaskCountWorkload(const WorkloadSetup& setup, std::vector<std::size_t> tasks)
       : trace_(setup.options.trace), tasks_(std::move(tasks)) {}
   FrameStats draw() override {
     trace_(std::vector<FrameTask>(tasks_[std::min(drawn_++, tasks_.size() - 1)], {.begin = 0, .end = 1e-9}));
@@ -131,19 +129,21 @@ class Traced : public Workload {
   Picture picture_{1, 1};
 };
 std::size_t tasks_of(const std::vector<std::size_t>& tasks) {
-  return measure_task_costs(
-             {.name = "traced",
-              .what = "",
-              .make = [&](const WorkloadSetup& setup) { return std::make_unique<Traced>(setup, tasks); }},
-             {}, 2)
+  return measure_task_costs({.name = "traced",
+                             .description = "",
+                             .make =
+                                 [&](const WorkloadSetup& setup) {
+                                   return std::make_unique<TaskCountWorkload>(setup, tasks);
+                                 }},
+                            {}, 2)
       .tasks.size();
 }
 
-TEST(FrameCosts, AreOfTheTasksOfLaterFrames) {
+TEST(BenchFrameCosts, FollowsTaskCountOfLaterFrames) {
   EXPECT_EQ(tasks_of({5}), 5u);
-  EXPECT_EQ(tasks_of({7, 7, 7, 7, 7, 5}), 5u) << "bins have grown";
+  EXPECT_EQ(tasks_of({7, 7, 7, 7, 7, 5}), 5u) << "fewer passes after bins have grown";
   EXPECT_EQ(tasks_of({5, 5, 5, 5, 5, 7}), 7u);
-  EXPECT_EQ(tasks_of({5, 5, 5, 5, 5, 0}), 5u) << "there was no memory for the trace";
+  EXPECT_EQ(tasks_of({5, 5, 5, 5, 5, 0}), 5u) << "no memory for the trace of a frame";
   EXPECT_EQ(tasks_of({0}), 0u);
 }
 

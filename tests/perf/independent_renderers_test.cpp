@@ -1,4 +1,4 @@
-// Two workloads at once, which wait for each other to be sure of it.
+// Two concurrent workloads that wait for each other to prove that they overlap.
 #include "perf/bench/independent_renderers.h"
 
 #include <algorithm>
@@ -9,32 +9,37 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/program/threads/thread_limit.h"
+
 namespace tessera::bench {
 using namespace program;
 namespace {
 
-struct Meeting {
+struct Rendezvous {
   std::mutex mutex{};
   std::condition_variable changed{};
-  int made = 0, frames = 0, inside = 0, most_inside = 0;
+  int made = 0;
+  int frames = 0;
+  int inside = 0;  ///< draw() calls in progress
+  int max_inside = 0;
 };
 
-/// The second one that is made may fail.
-class Meets : public Workload {
+/// @param fails  whether the second instance fails
+class RendezvousWorkload : public Workload {
  public:
-  Meets(Meeting& meeting, const WorkloadSetup& setup, bool fails)
-      : meeting_(meeting), fails_(fails && meeting.made == 1), picture_(1 + meeting.made, 1) {
-    ++meeting_.made;
+  RendezvousWorkload(Rendezvous& rendezvous, const WorkloadSetup& setup, bool fails)
+      : rendezvous_(rendezvous), fails_(fails && rendezvous.made == 1), picture_(1 + rendezvous.made, 1) {
+    ++rendezvous_.made;
     EXPECT_EQ(setup.options.threads, 1);
   }
   FrameStats draw() override {
     if (fails_) throw Error("no frame");
-    std::unique_lock lock(meeting_.mutex);
-    ++meeting_.frames;
-    meeting_.most_inside = std::max(meeting_.most_inside, ++meeting_.inside);
-    meeting_.changed.notify_all();
-    meeting_.changed.wait_for(lock, std::chrono::seconds(10), [&] { return meeting_.most_inside == 2; });
-    --meeting_.inside;
+    std::unique_lock lock(rendezvous_.mutex);
+    ++rendezvous_.frames;
+    rendezvous_.max_inside = std::max(rendezvous_.max_inside, ++rendezvous_.inside);
+    rendezvous_.changed.notify_all();
+    rendezvous_.changed.wait_for(lock, std::chrono::seconds(10), [&] { return rendezvous_.max_inside == 2; });
+    --rendezvous_.inside;
     return {};
   }
   std::string fault() override { return fails_ ? "no picture" : ""; }
@@ -42,38 +47,38 @@ class Meets : public Workload {
   FrameWork work(const FrameStats&) const override { return {.pixels = 7}; }
 
  private:
-  Meeting& meeting_;
+  Rendezvous& rendezvous_;
   bool fails_;
   Picture picture_;
 };
-WorkloadEntry meets(Meeting& meeting, bool fails) {
-  return {.name = "meets", .what = "", .make = [&meeting, fails](const WorkloadSetup& setup) {
-            return std::make_unique<Meets>(meeting, setup, fails);
+WorkloadEntry rendezvous_entry(Rendezvous& rendezvous, bool fails) {
+  return {.name = "rendezvous", .description = "", .make = [&rendezvous, fails](const WorkloadSetup& setup) {
+            return std::make_unique<RendezvousWorkload>(rendezvous, setup, fails);
           }};
 }
 
-TEST(IndependentRenderers, DrawAtOnce) {
+TEST(BenchIndependentRenderers, DrawsConcurrently) {
   const ThreadLimit limit(2);
-  Meeting meeting;
-  IndependentRenderers apart(meets(meeting, false), {.options = {.threads = 8}});
-  const FrameStats stats = apart.draw();
-  EXPECT_EQ(meeting.most_inside, 2);
-  EXPECT_EQ(meeting.frames, 2 * IndependentRenderers::kFrames);
-  EXPECT_EQ(apart.fault(), "");
-  EXPECT_EQ(apart.work(stats).pixels, 7u);
-  EXPECT_EQ(apart.picture().width, 1) << "the first one's";
+  Rendezvous rendezvous;
+  IndependentRenderers renderers(rendezvous_entry(rendezvous, false), {.options = {.threads = 8}});
+  const FrameStats stats = renderers.draw();
+  EXPECT_EQ(rendezvous.max_inside, 2);
+  EXPECT_EQ(rendezvous.frames, 2 * IndependentRenderers::kFrames);
+  EXPECT_EQ(renderers.fault(), "");
+  EXPECT_EQ(renderers.work(stats).pixels, 7u);
+  EXPECT_EQ(renderers.picture().width, 1) << "picture of the first one";
 }
 
-TEST(IndependentRenderers, FailIfOneDoes) {
+TEST(BenchIndependentRenderers, FailsIfOneFails) {
   const ThreadLimit limit(2);
-  Meeting meeting{.most_inside = 2};
-  IndependentRenderers apart(meets(meeting, true), {});
-  EXPECT_EQ(apart.fault(), "no picture");
-  EXPECT_THROW(apart.draw(), Error);
+  Rendezvous rendezvous{.max_inside = 2};
+  IndependentRenderers renderers(rendezvous_entry(rendezvous, true), {});
+  EXPECT_EQ(renderers.fault(), "no picture");
+  EXPECT_THROW(renderers.draw(), Error);
 }
 
 // Six frames in the time of two.
-TEST(IndependentRenderers, AreThreeTimesAsFastIfTheirFramesTakeTheTimeOfTwo) {
+TEST(BenchIndependentRenderers, SpeedUpCountsAllFrames) {
   const Ratio speed = IndependentRenderers::speed_up({.median = 2, .median_ci_low = 1, .median_ci_high = 4},
                                                      {.median = 4, .median_ci_low = 2, .median_ci_high = 4});
   EXPECT_DOUBLE_EQ(speed.value, 3);

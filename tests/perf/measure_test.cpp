@@ -1,4 +1,4 @@
-// Who draws how often and what becomes of what goes wrong, with workloads that only count.
+// Order and number of turns, and handling of faults, with workloads that only count their frames.
 #include "perf/bench/measure.h"
 
 #include <algorithm>
@@ -13,9 +13,8 @@ namespace {
 
 constexpr MeasureOptions kFewFrames{.repeats = 7, .seconds = 0.001, .warm_up_seconds = 0};
 
-/// What is seen of workloads from outside: frames drawn by each, in their order, by its number.
 struct Log {
-  std::vector<int> frames;
+  std::vector<int> frames;  ///< number of the workload that drew each frame
   int alive = 0;
 };
 
@@ -45,7 +44,8 @@ class Counting : public Workload {
   int number_;
   Picture picture_;
   std::string fault_;
-  int fails_at_, drawn_ = 0;
+  int fails_at_;
+  int drawn_ = 0;
   FrameWork work_;
 };
 
@@ -58,7 +58,7 @@ Picture grey(std::uint8_t level) {
 struct Made {
   Picture picture = grey(100);
   std::string fault{};
-  int fails_at = -1;  // the frame
+  int fails_at = -1;  // index of the frame that throws
   Roofline roofline = Roofline::none;
   std::uint64_t roofline_bytes = 1 << 20;
   std::uint64_t tile_bytes = 0;
@@ -76,7 +76,7 @@ Candidate counting(Log& log, int number, const Made& made = {}) {
           .threads = 1};
 }
 
-TEST(BenchMeasure, TakesTurnsAsOftenEach) {
+TEST(BenchMeasure, GivesEachCandidateEqualTurns) {
   Log log;
   const std::vector<Row> rows = measure(std::vector{counting(log, 0), counting(log, 1), counting(log, 2)},
                                         kFewFrames, HardwareCounters());
@@ -86,17 +86,16 @@ TEST(BenchMeasure, TakesTurnsAsOftenEach) {
     EXPECT_EQ(row.fault, "");
   }
   EXPECT_EQ(log.alive, 0);
-  EXPECT_EQ(std::vector(log.frames.begin(), log.frames.begin() + 3), (std::vector{0, 1, 2}))
-      << "the first frames";
-  // Then three each to be warm, and turns at random: whoever follows another draws one frame more.
+  EXPECT_EQ(std::vector(log.frames.begin(), log.frames.begin() + 3), (std::vector{0, 1, 2})) << "cold frames";
+  // Then three warm-up frames each, and random turns: one more frame after each change of candidate.
   const std::vector<int> turns(log.frames.begin() + 3 + 3 * 3, log.frames.end());
   std::size_t changes = 1;
   for (std::size_t i = 1; i < turns.size(); ++i) changes += turns[i] != turns[i - 1] ? 1 : 0;
   EXPECT_EQ(turns.size(), 3 * 7 + changes);
-  EXPECT_GT(changes, 6u) << "not one after the other";
+  EXPECT_GT(changes, 6u) << "turns are interleaved";
 }
 
-TEST(BenchMeasure, WhatARowIsHeldAgainstTakesTurnsWithIt) {
+TEST(BenchMeasure, MeasuresRooflinesInTurnsWithTheirRow) {
   MeasureOptions options = kFewFrames;
   options.measures_rooflines = true;
   for (const Roofline roofline : {Roofline::l1_stores, Roofline::tile_stores, Roofline::memory_stores,
@@ -106,27 +105,27 @@ TEST(BenchMeasure, WhatARowIsHeldAgainstTakesTurnsWithIt) {
         std::vector{counting(log, 0, {.roofline = roofline, .tile_bytes = 1 << 20}), counting(log, 1)},
         options, HardwareCounters());
     ASSERT_EQ(rows.size(), 2u);
-    const double alone = measure_bandwidth(roofline, 1, 1 << 20);  // and on a busy machine
-    EXPECT_GT(rows[0].roofline, alone / 30);
-    EXPECT_LT(rows[0].roofline, alone * 30);
-    EXPECT_EQ(rows[1].roofline, 0) << "there is none";
+    const double alone = measure_bandwidth(roofline, 1, 1 << 20);
+    EXPECT_GT(rows[0].roofline, alone / 30) << "also on a busy machine";
+    EXPECT_LT(rows[0].roofline, alone * 30) << "also on a busy machine";
+    EXPECT_EQ(rows[1].roofline, 0) << "it has no roofline";
     for (const Row& row : rows) EXPECT_EQ(row.frames, 7u);
-    // Of the two alone whoever follows the other draws a frame more; with the roofline some of those that
-    // follow themselves do.
+    // Without a roofline, one more frame is drawn after each change between the two. With it, some turns of
+    // the same workload are separated by the roofline's.
     const std::vector<int> turns(log.frames.begin() + 2 + 2 * 3, log.frames.end());
     std::size_t changes = 1;
     for (std::size_t i = 1; i < turns.size(); ++i) changes += turns[i] != turns[i - 1] ? 1 : 0;
-    EXPECT_GT(turns.size(), 2 * 7 + changes) << "it stood between them";
+    EXPECT_GT(turns.size(), 2 * 7 + changes);
     Log without;
     EXPECT_EQ(
         measure(std::vector{counting(without, 0, {.roofline = roofline})}, kFewFrames, HardwareCounters())[0]
             .roofline,
         0)
-        << "nobody asked";
+        << "measures_rooflines is false";
   }
 }
 
-TEST(BenchMeasure, WhatTilesStoreIsHeldAgainstTheFirstCacheToo) {
+TEST(BenchMeasure, ComparesTileStoresWithL1StoresToo) {
   MeasureOptions options = kFewFrames;
   options.measures_rooflines = true;
   Log log;
@@ -143,17 +142,16 @@ TEST(BenchMeasure, WhatTilesStoreIsHeldAgainstTheFirstCacheToo) {
     EXPECT_GT(row.roofline, 0);
     EXPECT_GT(row.l1_stores, 0);
   }
-#ifndef __SANITIZE_THREAD__  // what it notes of each byte takes as long, wherever that is
-  EXPECT_LT(large.roofline, large.l1_stores / 2) << "no cache next to a core holds so much";
+#ifndef __SANITIZE_THREAD__  // its bookkeeping dominates, wherever the bytes are
+  EXPECT_LT(large.roofline, large.l1_stores / 2) << "64 MiB exceed the caches of a core";
 #endif
   const Row other = measure(std::vector{counting(log, 0, {.roofline = Roofline::memory_stores})}, options,
                             HardwareCounters())[0];
-  EXPECT_EQ(other.l1_stores, 0) << "it is not for tiles";
+  EXPECT_EQ(other.l1_stores, 0) << "the roofline is not tile_stores";
 }
 
-TEST(BenchMeasure, FramesFillTheirSecondsWhateverTheirLimitTakes) {
-  // A run of stores in L1 takes far longer than the 15th part of these seconds, a frame that only counts far
-  // less.
+TEST(BenchMeasure, SlowRooflineDoesNotReduceFrames) {
+  // One run of the L1 stores takes far longer than 1/15 of these seconds, a frame of this workload far less.
   Log log;
   const std::vector<Row> rows =
       measure(std::vector{counting(log, 0, {.roofline = Roofline::l1_stores})},
@@ -162,9 +160,9 @@ TEST(BenchMeasure, FramesFillTheirSecondsWhateverTheirLimitTakes) {
   EXPECT_GT(rows[0].roofline, 0);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)  // the sanitizer's allocator ends the program instead
-TEST(BenchMeasure, ARowIsTimedThoughThereIsNoMemoryForItsLimit) {
+// The allocators of these sanitizers abort the program instead of throwing.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(BenchMeasure, TimesRowWithoutMemoryForItsRoofline) {
   Log log;
   for (const Roofline roofline : {Roofline::memory_stores, Roofline::memory_copies}) {
     MeasureOptions options = kFewFrames;
@@ -179,21 +177,21 @@ TEST(BenchMeasure, ARowIsTimedThoughThereIsNoMemoryForItsLimit) {
 }
 #endif
 
-TEST(BenchBandwidth, CountWhatTheyMove) {
+TEST(BenchBandwidth, CountsMovedBytes) {
   EXPECT_EQ(BandwidthKernel(Roofline::memory_stores, 2, 1000, 1000).bytes(), 1000);
   EXPECT_EQ(BandwidthKernel(Roofline::memory_loads, 1, 1000, 2000).bytes(), 2000);
   EXPECT_EQ(BandwidthKernel(Roofline::memory_copies, 2, 4000, 12000).bytes(), 12000)
-      << "half of them are read";
-  EXPECT_EQ(BandwidthKernel(Roofline::memory_copies, 8, 4, 4).bytes(), 16) << "each thread something";
-  EXPECT_EQ(BandwidthKernel(Roofline::memory_stores, 2, 5000, 12000).bytes(), 10000) << "whole memories";
-  EXPECT_EQ(BandwidthKernel(Roofline::memory_copies, 2, 5000, 1000).bytes(), 5000) << "once";
+      << "reads and writes count";
+  EXPECT_EQ(BandwidthKernel(Roofline::memory_copies, 8, 4, 4).bytes(), 16) << "at least one byte per thread";
+  EXPECT_EQ(BandwidthKernel(Roofline::memory_stores, 2, 5000, 12000).bytes(), 10000) << "whole passes only";
+  EXPECT_EQ(BandwidthKernel(Roofline::memory_copies, 2, 5000, 1000).bytes(), 5000) << "at least one pass";
   EXPECT_EQ(BandwidthKernel(Roofline::memory_stores, 1, 16, 64 << 20).bytes(), 16e6)
-      << "a million times, and no more";
+      << "at most a million passes";
   EXPECT_EQ(BandwidthKernel(Roofline::l1_stores, 3, 5000, 1000).bytes(), 20000.0 * 3 * 16384)
-      << "the first caches', whatever the frame";
+      << "independent of the size of the frame";
 }
 
-TEST(BenchBandwidth, AreTheFramesOwn) {
+TEST(BenchBandwidth, MatchesTheFramesRoofline) {
   EXPECT_EQ(bandwidth_kernel_for(
                 {.roofline = Roofline::memory_stores, .roofline_bytes = 1000, .tile_bytes = 8}, 2, 1)
                 .bytes(),
@@ -202,14 +200,14 @@ TEST(BenchBandwidth, AreTheFramesOwn) {
       bandwidth_kernel_for({.roofline = Roofline::tile_stores, .roofline_bytes = 8, .tile_bytes = 1000}, 2, 1)
           .bytes(),
       2000)
-      << "a tile for each thread";
+      << "one tile per thread";
   EXPECT_EQ(
       bandwidth_kernel_for({.roofline = Roofline::l1_stores, .roofline_bytes = 8, .tile_bytes = 8}, 1, 1)
           .bytes(),
       20000.0 * 16384);
 }
 
-TEST(BenchMeasure, DoesNotTimeWhatIsWrong) {
+TEST(BenchMeasure, DoesNotTimeWrongPictures) {
   Log log;
   const std::vector<Row> rows =
       measure(std::vector{counting(log, 0), counting(log, 1, {.fault = "a pixel is off"})}, kFewFrames,
@@ -221,8 +219,8 @@ TEST(BenchMeasure, DoesNotTimeWhatIsWrong) {
   EXPECT_EQ(log.frames.size(), 2u);
 }
 
-TEST(BenchMeasure, WhatStopsAWorkloadIsAFaultOfItsRow) {
-  for (const int frame : {0, 2, 6}) {  // the first, of the warm-up, of those that are timed
+TEST(BenchMeasure, ReportsExceptionsAsFaultOfTheRow) {
+  for (const int frame : {0, 2, 6}) {  // cold, warm-up and timed frame
     Log log;
     const std::vector<Row> rows =
         measure(std::vector{counting(log, 0, {.fails_at = frame})}, kFewFrames, HardwareCounters());
@@ -231,7 +229,7 @@ TEST(BenchMeasure, WhatStopsAWorkloadIsAFaultOfItsRow) {
     EXPECT_EQ(rows[0].frames, 0u) << frame;
     EXPECT_EQ(log.alive, 0) << frame;
   }
-  // Of several it is the fault of the one whose turn it was.
+  // Of several candidates, the one whose turn it was has the fault.
   for (const int frame : {0, 2, 6}) {
     Log log;
     const std::vector<Row> rows = measure(
@@ -246,12 +244,12 @@ TEST(BenchMeasure, WhatStopsAWorkloadIsAFaultOfItsRow) {
   EXPECT_EQ(measure(std::vector{unmade}, kFewFrames, HardwareCounters())[0].fault, "no such mesh");
 }
 
-TEST(BenchComparison, IsFoughtOverTheSamePicture) {
+TEST(BenchComparison, RequiresMatchingPictures) {
   Log log;
   Made off;
   for (std::size_t i = 0; i < 5; ++i) off.picture.rgba[4 * i + i % 3] = 103;  // five pixels of a hundred
-  off.picture.rgba[400 - 4] = 102;                                            // two levels are none
-  off.picture.rgba[400 - 5] = 0;                                              // nor is alpha
+  off.picture.rgba[400 - 4] = 102;                                            // two levels are allowed
+  off.picture.rgba[400 - 5] = 0;                                              // alpha is ignored
   const Comparison even =
       compare_with_rival(counting(log, 0), counting(log, 1, off), 0.05, kFewFrames, HardwareCounters());
   EXPECT_EQ(even.fault(), "");
@@ -266,7 +264,7 @@ TEST(BenchComparison, IsFoughtOverTheSamePicture) {
   EXPECT_EQ(odd.ours.frames, 0u);
 }
 
-TEST(BenchComparison, SaysWhoIsWrong) {
+TEST(BenchComparison, NamesTheFaultySide) {
   Log log;
   EXPECT_EQ(compare_with_rival(counting(log, 0, {.fault = "ours"}), counting(log, 1), 1, kFewFrames,
                                HardwareCounters())
@@ -279,7 +277,7 @@ TEST(BenchComparison, SaysWhoIsWrong) {
   EXPECT_EQ(compare_with_rival(counting(log, 0), counting(log, 1, {.picture = Picture(10, 9)}), 1, kFewFrames,
                                HardwareCounters())
                 .fault(),
-            "the rival's picture has another size");
+            "the rival's picture is 10x9, expected 10x10");
 }
 
 }  // namespace

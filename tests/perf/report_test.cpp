@@ -1,4 +1,4 @@
-// What a report says of rows that were measured and of those that were not.
+// Reports of rows that were measured and of rows that were not.
 #include "perf/bench/report.h"
 
 #include <gtest/gtest.h>
@@ -13,61 +13,77 @@ const Row kFaulty{.name = "faulty", .threads = 2, .fault = "found \"black\", exp
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-TEST(Report, NamesCountersOnlyWhereSomethingRan) {
-  const std::string kNone = "hardware counters: the system gives none";
+TEST(BenchReport, MentionsMissingCountersOnlyAfterTimedRows) {
+  const std::string kNone = "hardware counters: not available";
   EXPECT_FALSE(has(table_summary({.rows = {kFaulty}}), kNone));
   EXPECT_TRUE(has(table_summary({.rows = {kFaulty, kTimed}}), kNone));
   Row counted = kTimed;
   counted.counts = {.cycles = 3000000, .instructions = 6000000};
   const std::string text = table_summary({.rows = {kTimed, counted}});
   EXPECT_FALSE(has(text, kNone)) << text;
-  EXPECT_TRUE(has(text, "3.00 million cycles a frame, 2.00 instructions a cycle")) << text;
+  EXPECT_TRUE(has(text, "3.00 million cycles per frame, 2.00 instructions per cycle")) << text;
 }
 
-TEST(Report, SaysWhatThereWasNoMemoryFor) {
+TEST(BenchReport, NamesMeasurementsWithoutMemory) {
   Row limited = kTimed;
   limited.work.roofline = Roofline::memory_copies;
   limited.work.roofline_bytes = 8000000;
   const Report without{.bandwidth = {.l1_stores = 90.5, .memory_loads_single_core = 7},
                        .rows = {kTimed, limited}};
   const std::string text = table_summary(without);
-  EXPECT_TRUE(has(text, "stores in L1 90.5, of 64 KiB a thread (no memory), of a frame (no memory),"))
+  EXPECT_TRUE(has(
+      text,
+      "bandwidth, GB/s: L1 stores 90.5, stores of 64 KiB per thread (no memory), of one frame (no memory),"))
       << text;
-  EXPECT_TRUE(has(text, "loads of 256 MiB (no memory) (by one core 7.0)\n")) << text;
-  EXPECT_TRUE(text.ends_with("timed                  no memory for copies of as much\n")) << text;
+  EXPECT_TRUE(has(text, "loads of 256 MiB (no memory) (one core: 7.0)\n")) << text;
+  EXPECT_TRUE(text.ends_with("timed                  no memory to measure memory copies\n")) << text;
   const nlohmann::ordered_json rates = report_json(without)["bandwidth_gigabytes_per_second"];
   EXPECT_EQ(rates, (nlohmann::ordered_json{{"l1_stores", 90.5}, {"memory_loads_single_core", 7.0}}));
-  limited.roofline = 16;  // of which two milliseconds for 8 MB are a quarter
+  limited.roofline = 16;  // GB/s; 8 MB in 2 ms are 4 GB/s
   const std::string share = table_summary({.rows = {limited}});
-  EXPECT_TRUE(
-      share.ends_with("timed                  moves 4.0 GB/s, 25 % of copies of as much (16.0 GB/s)\n"))
+  EXPECT_TRUE(share.ends_with("timed                  moves 4.0 GB/s, 25 % of memory copies (16.0 GB/s)\n"))
       << share;
 }
 
-TEST(Report, HoldsTilesAgainstTheirOwnStoresAndTheFirstCaches) {
+TEST(BenchReport, ComparesTilesWithTileStoresAndL1Stores) {
   Row filled = kTimed;
   filled.work.roofline = Roofline::tile_stores;
   filled.work.roofline_bytes = 8000000;
   filled.roofline = 8;
   filled.l1_stores = 40;
   const std::string text = table_summary({.rows = {filled}});
-  EXPECT_TRUE(
-      text.ends_with("timed                  moves 4.0 GB/s, 50 % of stores of a tile's words (8.0 GB/s), 10 "
-                     "% of stores in L1 (40.0 GB/s)\n"))
+  EXPECT_TRUE(text.ends_with(
+      "timed                  moves 4.0 GB/s, 50 % of tile stores (8.0 GB/s), 10 % of L1 stores "
+      "(40.0 GB/s)\n"))
       << text;
   const nlohmann::ordered_json row = report_json({.rows = {filled}})["workloads"][0];
-  EXPECT_EQ(row["roofline"], "stores of a tile's words");
+  EXPECT_EQ(row["roofline"], "tile stores");
   EXPECT_EQ(row["share_of_roofline"], 0.5);
   EXPECT_EQ(row["l1_stores_gigabytes_per_second"], 40);
   EXPECT_EQ(row["share_of_l1_stores"], 0.1);
-  filled.l1_stores = 0;  // there was no memory for it
-  EXPECT_TRUE(table_summary({.rows = {filled}}).ends_with("stores of a tile's words (8.0 GB/s)\n"));
+  filled.l1_stores = 0;  // no memory to measure it
+  EXPECT_TRUE(table_summary({.rows = {filled}}).ends_with("tile stores (8.0 GB/s)\n"));
 }
 
-TEST(Report, TablesForProgramsHaveFaultyRowsToo) {
-  const std::string csv = report_csv(
-                        {.width = 80, .height = 50, .instruction_set = "avx2", .rows = {kFaulty, kTimed}}),
-                    kShared = ",80,50,avx2,0,1,,,\n";
+TEST(BenchReport, ShowsRatiosToBaselines) {
+  Row row = kTimed;
+  row.to_baseline = {.baseline = "plain", .ratio = {.value = 1.5, .low = 1.25, .high = 2}};
+  const std::string text = table_summary({.rows = {kTimed, row}});
+  EXPECT_TRUE(text.ends_with("timed                  takes 1.500 (1.250 .. 2.000) times as long as plain\n"))
+      << text;
+  const nlohmann::ordered_json rows = report_json({.rows = {kTimed, row}})["workloads"];
+  EXPECT_FALSE(rows[0].contains("baseline"));
+  EXPECT_FALSE(rows[0].contains("ratio_to_baseline"));
+  EXPECT_EQ(rows[1]["baseline"], "plain");
+  EXPECT_EQ(rows[1]["ratio_to_baseline"], 1.5);
+  EXPECT_EQ(rows[1]["low_ratio_to_baseline"], 1.25);
+  EXPECT_EQ(rows[1]["high_ratio_to_baseline"], 2);
+}
+
+TEST(BenchReport, CsvHasFaultyRows) {
+  const std::string csv =
+      report_csv({.width = 80, .height = 50, .instruction_set = "avx2", .rows = {kFaulty, kTimed}});
+  const std::string kShared = ",80,50,avx2,0,1,,,\n";
   EXPECT_TRUE(csv.starts_with("workload,threads,frames,median_ms,")) << csv;
   const auto columns =
       std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',');
@@ -83,7 +99,7 @@ TEST(Report, TablesForProgramsHaveFaultyRowsToo) {
   EXPECT_TRUE(report_csv({}).ends_with(kSetting));
 }
 
-TEST(Report, TablesForProgramsTellTheMachineInEachRow) {
+TEST(BenchReport, CsvRepeatsTheMachineInEachRow) {
   const std::string csv = report_csv({.machine = "CPU        a chip\ncaches     L1 48 KiB, L2 1 MiB\n\n",
                                       .width = 80,
                                       .height = 50,

@@ -1,4 +1,4 @@
-// What is said of measurements, against values that are counted off by hand.
+// Order statistics against values counted by hand.
 #include "perf/bench/statistics.h"
 
 #include <cmath>
@@ -9,27 +9,27 @@
 namespace tessera::bench {
 namespace {
 
-TEST(BenchStatistics, OfOneValueAreThatValue) {
+TEST(BenchStatistics, SingleValueIsEveryStatistic) {
   const Statistics s = statistics_of({3});
   for (const double value : {s.median, s.low_quartile, s.high_quartile, s.percentile_95, s.percentile_99,
                              s.min, s.median_ci_low, s.median_ci_high})
     EXPECT_EQ(value, 3);
 }
 
-TEST(BenchStatistics, AreMeasuredValuesInWhateverOrderTheyCome) {
+TEST(BenchStatistics, ReturnsMeasuredValuesIndependentOfOrder) {
   const Statistics five = statistics_of({50, 10, 40, 20, 30});
   EXPECT_EQ(five.min, 10);
-  EXPECT_EQ(five.low_quartile, 20) << "two of five are not above it, one would be too few";
+  EXPECT_EQ(five.low_quartile, 20) << "two of five do not exceed it; one would be too few";
   EXPECT_EQ(five.median, 30);
   EXPECT_EQ(five.high_quartile, 40);
   EXPECT_EQ(five.percentile_95, 50);
   EXPECT_EQ(statistics_of({4, 1, 3, 2}).median, 2) << "not the mean of two";
 }
 
-TEST(BenchStatistics, HavePercentilesOfAHundred) {
+TEST(BenchStatistics, ComputesPercentiles) {
   std::vector<double> values;
   for (int i = 0; i < 200; ++i)
-    values.push_back((i * 73 + 5) % 200 + 1);  // each of 1 .. 200 once: 73 and 200 have no common factor
+    values.push_back((i * 73 + 5) % 200 + 1);  // 1 to 200, each once: 73 and 200 are coprime
   const Statistics s = statistics_of(values);
   EXPECT_EQ(s.min, 1);
   EXPECT_EQ(s.low_quartile, 50);
@@ -39,29 +39,29 @@ TEST(BenchStatistics, HavePercentilesOfAHundred) {
   EXPECT_EQ(s.percentile_99, 198);
 }
 
-// Of a distribution whose median is known, log 2: the bounds have to hold it as often as they say.
-TEST(BenchStatistics, BoundsHoldTheMedianNineteenTimesOfTwenty) {
+// Exponential distribution with median log 2: the interval must contain it with the stated probability.
+TEST(BenchStatistics, ConfidenceIntervalContainsTheMedianInNineteenOfTwentyCases) {
   std::mt19937 random(7);
-  std::exponential_distribution<double> lopsided(1);
+  std::exponential_distribution<double> exponential(1);
   for (const std::size_t count : {6u, 15u, 50u, 201u}) {
-    int held = 0;
+    int hits = 0;
     constexpr int kRuns = 4000;
     for (int run = 0; run < kRuns; ++run) {
       std::vector<double> values(count);
-      for (double& value : values) value = lopsided(random);
+      for (double& value : values) value = exponential(random);
       const Statistics s = statistics_of(values);
       EXPECT_LE(s.median_ci_low, s.median);
       EXPECT_GE(s.median_ci_high, s.median);
-      held += s.median_ci_low <= std::log(2.0) && std::log(2.0) <= s.median_ci_high ? 1 : 0;
+      hits += s.median_ci_low <= std::log(2.0) && std::log(2.0) <= s.median_ci_high ? 1 : 0;
     }
-    EXPECT_GT(held, 0.94 * kRuns) << count;
-    EXPECT_LT(held, 0.985 * kRuns) << count << ": wider than need be";
+    EXPECT_GT(hits, 0.94 * kRuns) << count;
+    EXPECT_LT(hits, 0.985 * kRuns) << count << ": too wide";
   }
 }
 
-TEST(BenchStatistics, RatiosAreAsWideAsBothMedians) {
-  const Statistics a{.median = 6, .median_ci_low = 5, .median_ci_high = 8},
-      b{.median = 3, .median_ci_low = 2, .median_ci_high = 4};
+TEST(BenchStatistics, RatioCombinesBothIntervals) {
+  const Statistics a{.median = 6, .median_ci_low = 5, .median_ci_high = 8};
+  const Statistics b{.median = 3, .median_ci_low = 2, .median_ci_high = 4};
   const Ratio ratio = ratio_of(a, b);
   EXPECT_EQ(ratio.value, 2);
   EXPECT_EQ(ratio.low, 1.25);

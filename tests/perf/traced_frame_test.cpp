@@ -1,4 +1,4 @@
-// What is made of a frame's tasks: a trace for viewers, and a picture of what tiles cost.
+// Output made from the tasks of a frame: Chrome trace and heatmap.
 #include "perf/bench/traced_frame.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Two tiles above one of both's width; the lower one costs 1 ns a pixel, the upper ones 3 and 2.
+// One tile of 4x2 pixels at the bottom, 1 ns per pixel; two of 2x2 above it, 3 and 2 ns per pixel.
 TracedFrame three_tiles() {
   TracedFrame frame{.workload = "made up", .seconds = 1e-6};
   frame.tasks = {{.stage = FrameStage::vertices, .worker = 1, .begin = 0, .end = 1e-4},
@@ -35,9 +35,9 @@ TracedFrame three_tiles() {
   return frame;
 }
 
-TEST(TracedFrame, AddsUpItsTasks) { EXPECT_NEAR(three_tiles().task_seconds(), 1e-4 + 28e-9, 1e-15); }
+TEST(BenchTracedFrame, AddsUpItsTasks) { EXPECT_NEAR(three_tiles().task_seconds(), 1e-4 + 28e-9, 1e-15); }
 
-TEST(TracedFrame, IsAChromeTrace) {
+TEST(BenchTracedFrame, WritesChromeTrace) {
   TracedFrame other = three_tiles();
   other.workload = "other \"one\"";
   const Json events = Json::parse(chrome_trace({three_tiles(), other}))["traceEvents"];
@@ -65,7 +65,7 @@ TEST(TracedFrame, IsAChromeTrace) {
   EXPECT_EQ(events[6]["args"]["pass"], 1);
 }
 
-TEST(TracedFrame, IsAPictureOfWhatItsTilesCost) {
+TEST(BenchTracedFrame, PaintsTileCosts) {
   const Heatmap map = heatmap(three_tiles());
   EXPECT_NEAR(map.max_ns_per_pixel, 3, 1e-6);
   const auto pixel = [&](int x, int y) {  // from the top
@@ -73,14 +73,14 @@ TEST(TracedFrame, IsAPictureOfWhatItsTilesCost) {
     return std::vector<int>(p, p + 4);
   };
   for (const int y : {0, 1}) {
-    EXPECT_EQ(pixel(0, y), (std::vector{255, 255, 255, 255})) << "the dearest is white";
-    EXPECT_EQ(pixel(2, y), (std::vector{255, 255, 0, 255})) << "two thirds of it: yellow";
+    EXPECT_EQ(pixel(0, y), (std::vector{255, 255, 255, 255})) << "most expensive tile: white";
+    EXPECT_EQ(pixel(2, y), (std::vector{255, 255, 0, 255})) << "two thirds of the maximum: yellow";
   }
   for (const int x : {0, 1, 2, 3})
-    EXPECT_EQ(pixel(x, 3), (std::vector{255, 0, 0, 255})) << "a third of it: red";
+    EXPECT_EQ(pixel(x, 3), (std::vector{255, 0, 0, 255})) << "one third of the maximum: red";
 }
 
-TEST(TracedFrame, WithoutTilesIsNoPicture) {
+TEST(BenchTracedFrame, WithoutTilesGivesEmptyHeatmap) {
   TracedFrame frame = three_tiles();
   frame.tasks.resize(1);
   const Heatmap map = heatmap(frame);
