@@ -164,7 +164,6 @@ void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
   plan.flat = state.shading == Shading::flat || plan.topology == Topology::points;
   plan.clamps_vertex_alpha = plan.flat || !state.lighting || state.shading != Shading::phong;
   plan.scaled_colors = false;
-  plan.attribute_count = plan.has_per_triangle_colors() ? 0 : 4;
 }
 
 /// One colour for the draw, and the texture, if any, over it: at the pixels, or once for all where it has one
@@ -230,9 +229,8 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     }
     plan.lit = true;
   }
-  const bool needs_normal =
-      plan.lit && (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal));
-  const bool generate = needs_normal && !draw.mesh.normals, has_faces = plan.topology == Topology::triangles;
+  const bool generate = plan.needs_normal() && !draw.mesh.normals;
+  const bool has_faces = plan.topology == Topology::triangles;
   const bool phong = state.shading == Shading::phong && plan.lit;
   if (phong)
     for (LightingProgram* program : {&plan.front, &plan.back}) program->renormalize = true;
@@ -241,10 +239,6 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan.deferred = !is_order_dependent(plan, layout);
     plan_texturing(plan, false);
     plan.smooth_normals = generate;
-    plan.attribute_count = (needs_normal ? 3 : 0) +
-                           (plan.front.needs_position || plan.back.needs_position ? 3 : 0) +
-                           (plan.uses_vertex_colors ? 3 : 0);
-    if (plan.float_colors && plan.vertex_alpha) ++plan.attribute_count;
     note(plan.deferred ? "lit at each visible pixel, once"
                        : "lit at each pixel of each triangle: its operations depend on the order");
   } else if (state.shading == Shading::flat ||
@@ -260,7 +254,6 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
       plan.source = ColorSource::interpolated;
       plan.flat = true;
       plan.scaled_colors = false;
-      plan.attribute_count = by_triangle ? 0 : plan.color_floats() * (plan.two_sided ? 2 : 1);
     }
     note(plan.topology == Topology::points ? "points have one colour each"
          : plan.face_normals               ? "flat, lit once a triangle with its face's normal"
@@ -277,7 +270,6 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     const bool shades_visible = layout.index || layout.luminance || plan.textures_per_pixel ||
                                 (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));
     plan.deferred = shades_visible && !is_order_dependent(plan, layout);
-    plan.attribute_count = plan.color_floats() * (plan.two_sided ? 2 : 1);
     note(plan.deferred ? "colours interpolated at each visible pixel, once" : "colours interpolated at once");
   }
   if (generate && !has_faces) note("the mesh has neither normals nor faces: light of no direction alone");
@@ -407,14 +399,8 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
     *reasons += plan.textures_per_pixel
                     ? "  texture: one colour, worked into each pixel's\n"
                     : "  texture: one colour, folded into the colours of vertices, faces or the draw\n";
-  if (plan.textures_per_pixel && plan.texture.use == TexturePlan::Use::texels) {
-    plan.texcoord_offset = plan.texture.texture.attribute = plan.attribute_count;
-    plan.attribute_count += 2;
-  }
-  if (capture_normals && plan.write_mask != 0 && !draw.pixels) {
-    plan.captured_normal_offset = plan.attribute_count;
-    plan.attribute_count += 3;
-  }
+  plan.varyings = varying_layout(plan, capture_normals);
+  if (plan.varyings.texcoord >= 0) plan.texture.texture.attribute = plan.varyings.texcoord;
   const bool writes_depth = plan.uses_depth && plan.depth_write;
   const bool writes_stencil = plan.uses_stencil && (plan.ops.faces[0].writes() || plan.ops.faces[1].writes());
   const bool never_seen = (has_depth && state.depth.test == Compare::never) ||

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/plan/texture_plan.h"
+#include "engine/plan/varying_layout.h"
 #include "engine/record/recording.h"
 #include "raster/vertex_transform.h"
 #include "shading/lighting.h"
@@ -67,12 +68,11 @@ struct DrawPlan {
     return !textures_per_pixel && texture.use != TexturePlan::Use::none;
   }  ///< its one colour into the colours of vertices, triangles or the draw
 
-  /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and
-  /// back]; then texture coordinates, then the normal that a capture wants.
-  int attribute_count = 0;
-  int texcoord_offset = -1;         ///< where they begin; -1: none are wanted
-  int captured_normal_offset = -1;  ///< where it begins; -1: none is wanted
+  VaryingLayout varyings;
 
+  /// Inputs of lighting, at vertices, triangles or pixels.
+  bool needs_normal() const { return lit && (front.needs_normal || (two_sided && back.needs_normal)); }
+  bool needs_position() const { return lit && (front.needs_position || (two_sided && back.needs_position)); }
   bool has_offset() const { return offset_factor != 0 || offset_units != 0; }
   bool only_indices() const { return is_index[0] && is_index[1]; }
   bool uses_palette() const {

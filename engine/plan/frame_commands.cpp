@@ -160,8 +160,25 @@ void set_fragment_ops(TileDraw& draw, const DrawPlan& plan, DrawBuffers& buffers
     for (std::size_t c = 0; c < 3; ++c) draw.color[face][c] = plan.constant_color[c];
     if (plan.is_index[face]) draw.color[face][0] = plan.constant_index;
     draw.color[face][3] = draw.alpha[face] = plan.alpha[face];
-    if (plan.float_colors && plan.source == ColorSource::interpolated && !plan.flat && !plan.is_index[face])
-      draw.alpha_attribute[face] = draw.color_attribute[face] + 3;
+  }
+}
+
+void set_varyings(TileDraw& draw, const DrawPlan& plan) {
+  const VaryingLayout& layout = plan.varyings;
+  draw.attribute_stride = layout.count;
+  draw.attribute_count = layout.shading_count;
+  const auto map = [&](int offset, int field) {
+    for (int c = 0; c < 3 && offset >= 0; ++c) draw.fields[offset + c] = static_cast<std::uint8_t>(field + c);
+  };
+  const bool lit_per_pixel = plan.source == ColorSource::per_pixel;
+  if (lit_per_pixel) {
+    map(layout.normal, kNormalX);
+    map(layout.position, kPositionX);
+    map(layout.color[0], kVertexR);
+  }
+  for (int face = 0; face < 2; ++face) {
+    if (!lit_per_pixel && layout.color[face] >= 0) draw.color_attribute[face] = layout.color[face];
+    if (!plan.flat) draw.alpha_attribute[face] = layout.alpha[face];
   }
 }
 
@@ -347,10 +364,6 @@ void build_tile_draws(FrameCommands& commands) {
     draw.vertices = buffers.vertices.data();
     draw.indices = geometry.indices();
     draw.attributes = buffers.attributes.data();
-    draw.attribute_stride = plan.attribute_count;
-    draw.attribute_count = plan.texcoord_offset >= 0          ? plan.texcoord_offset
-                           : plan.captured_normal_offset >= 0 ? plan.captured_normal_offset
-                                                              : plan.attribute_count;
     draw.provoking = std::max(provoking_place(geometry.mesh->primitive, geometry.provoking_vertex), 0);
     draw.rect = plan.rect;
     draw.front_is_clockwise = plan.front_is_clockwise;
@@ -368,7 +381,6 @@ void build_tile_draws(FrameCommands& commands) {
     draw.scaled_colors = plan.scaled_colors;
     draw.packed_colors[0] = buffers.packed_colors[0].data();
     draw.packed_colors[1] = buffers.packed_colors[plan.two_sided ? 1 : 0].data();
-    draw.color_attribute[1] = plan.two_sided ? plan.color_floats() : 0;
     std::copy_n(plan.is_index, 2, draw.index);
     draw.programs[0] = &plan.front;
     draw.programs[1] = plan.two_sided ? &plan.back : &plan.front;
@@ -385,20 +397,7 @@ void build_tile_draws(FrameCommands& commands) {
                             plan.alpha[face]};
     }
     if (plan.has_ops) set_fragment_ops(draw, plan, buffers);
-    if (plan.source == ColorSource::per_pixel) {
-      // The order in which the vertex stage stores them.
-      int next = 0;
-      const auto add = [&](int field) {
-        for (int c = 0; c < 3; ++c) draw.fields[next++] = static_cast<std::uint8_t>(field + c);
-      };
-      if (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal)) add(kNormalX);
-      if (plan.front.needs_position || (plan.two_sided && plan.back.needs_position)) add(kPositionX);
-      if (plan.uses_vertex_colors) add(kVertexR);
-      if (plan.float_colors && plan.vertex_alpha) {
-        draw.alpha_attribute[0] = draw.alpha_attribute[1] = next;
-        --draw.attribute_count;  // it is no input of lighting
-      }
-    }
+    set_varyings(draw, plan);
     const std::size_t plan_number = static_cast<std::size_t>(&geometry - commands.geometry.data());
     const auto add = [&] {
       commands.tile_draws.push_back(draw);

@@ -65,7 +65,7 @@ void BinStage::prepare_draws(int samples) {
     draw.positions = geometry.mesh->positions;
     draw.components = geometry.mesh->components;
     draw.attributes = geometry.buffers->attributes.data();
-    draw.attribute_count = draw.attribute_stride = plan.attribute_count;
+    draw.attribute_count = draw.attribute_stride = plan.varyings.count;
     if (plan.outlines) {
       PolygonModes& modes = geometry.buffers->modes;
       modes = {.style = {plan.style[0], plan.style[1]},

@@ -72,7 +72,7 @@ void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const 
     } else if (kind == PassKind::normals) {
       draw.source = ColorSource::per_pixel;
       draw.captures_normals = true;
-      draw.first_attribute = commands.plans[plan]->captured_normal_offset;
+      draw.first_attribute = commands.plans[plan]->varyings.captured_normal;
       draw.attribute_count = 3;
       for (int c = 0; c < 3; ++c) draw.fields[c] = static_cast<std::uint8_t>(kNormalX + c);
       draw.programs[0] = draw.programs[1] = &normal_program_;

@@ -59,7 +59,7 @@ struct GeometryDraw {
   /// It has elements whose corners or normals are not there yet. @see assemble_elements
   bool assembles() const { return generates_indices() || plan->outlines || plan->face_normals; }
   bool wants_smooth_normals() const {
-    return plan->smooth_normals || (plan->captured_normal_offset >= 0 && !mesh->normals);
+    return plan->smooth_normals || (plan->varyings.captured_normal >= 0 && !mesh->normals);
   }
   bool has_polygon_facing() const { return plan->outlines || mesh->triangles_per_polygon() > 1; }
   /// Once the vertices are there.
