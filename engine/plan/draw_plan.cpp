@@ -78,26 +78,26 @@ void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   plan.is_index[1] = plan.two_sided ? back_material(state).index_ramp.has_value() : plan.is_index[0];
 }
 
-/// What of the mesh's and the materials' colours and indices is not looked at.
+/// Notes colour inputs of the mesh and the materials that this draw ignores.
 void note_unused_colors(const DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
-                        std::string& reasons) {
+                        const EffectNotes& notes) {
   const DrawState& state = draw.state;
-  const auto note = [&](const char* line) { reasons += std::string("  ") + line + "\n"; };
+  const bool has_colors = draw.mesh.has_colors();
   if (draw.mesh.color_indices && !plan.uses_color_indices)
-    note(layout.index ? "the mesh's color_indices are not used: it is lit"
-                      : "the mesh's color_indices are not used: the buffer holds RGB");
-  if (draw.mesh.has_colors() && plan.uses_color_indices)
-    note("the mesh's colours are not used: it has color_indices");
+    notes.skipped(Effect::color_indices, layout.index ? EffectReason::draw_is_lit : EffectReason::rgb_buffer);
+  if (has_colors && plan.uses_color_indices)
+    notes.skipped(Effect::vertex_colors, EffectReason::draw_has_color_indices);
   if (!state.lighting) return;
-  if (draw.mesh.has_colors() && state.color_material == ColorMaterial::none)
-    note("the mesh's colours are not used: it is lit, and color_material is none");
-  if (draw.mesh.has_colors() && state.color_material != ColorMaterial::none && plan.only_indices())
-    note("the mesh's colours are not used: the material has an index_ramp");
+  if (has_colors && state.color_material == ColorMaterial::none)
+    notes.skipped(Effect::vertex_colors, EffectReason::color_material_none);
+  if (has_colors && state.color_material != ColorMaterial::none && plan.only_indices())
+    notes.skipped(Effect::vertex_colors, EffectReason::material_has_index_ramp);
   if (!layout.index && (state.material.index_ramp || (plan.two_sided && back_material(state).index_ramp)))
-    note("the material's index_ramp is not used: the buffer holds RGB");
+    notes.skipped(Effect::index_lighting, EffectReason::rgb_buffer);
 }
 
-void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, std::string* reasons) {
+void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
+                 const EffectNotes& notes) {
   const LightModel& model = draw.scene_state->light_model;
   const glm::dmat4 view = to_glm(draw.scene_state->camera.view);
   plan.lights.clear();
@@ -107,18 +107,18 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& la
   const bool unit_normals = draw.state.normalize || draw.state.shading == Shading::phong;
   const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == SpecularModel::phong,
                                unit_normals};
-  const auto set_program = [&](LightingProgram& program, const Material& material, bool index) {
-    if (reasons && index)
-      *reasons += "  index lighting: emission, ambient light and the material's colours are not used\n";
+  const auto set_program = [&](LightingProgram& program, const Material& material, bool index,
+                               const EffectNotes& face_notes) {
+    if (index) face_notes.active(Effect::index_lighting);
     program = index ? plan_index_lighting({*material.index_ramp, material.shininess, layout.index_modulus()},
-                                          plan.lights, lighting, reasons, std::move(program.terms))
-                    : plan_lighting(surface(material), tracked, plan.lights, lighting, reasons,
+                                          plan.lights, lighting, face_notes, std::move(program.terms))
+                    : plan_lighting(surface(material), tracked, plan.lights, lighting, face_notes,
                                     std::move(program.terms));
   };
-  set_program(plan.front, draw.state.material, plan.is_index[0]);
+  set_program(plan.front, draw.state.material, plan.is_index[0], notes);
   if (plan.two_sided) {
-    if (reasons) *reasons += "  back faces:\n";
-    set_program(plan.back, back_material(draw.state), plan.is_index[1]);
+    notes.active(Effect::two_sided_lighting);
+    set_program(plan.back, back_material(draw.state), plan.is_index[1], notes.for_back_faces());
     plan.back.negate_normal = true;
   }
   plan.uses_vertex_colors = tracked.any() && !plan.only_indices();
@@ -193,37 +193,36 @@ void plan_texturing(DrawPlan& plan, bool at_vertices) {
 }
 
 void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, bool sampled,
-                std::string* reasons) {
+                const EffectNotes& notes) {
   const DrawState& state = draw.state;
-  const auto note = [&](const char* line) {
-    if (reasons) (*reasons += "  ").append(line) += "\n";
-  };
   if (plan.write_mask == 0) {
     plan.source = ColorSource::none;
     if (plan.ops.alpha_test) plan_alpha(plan, draw);
     plan_texturing(plan, false);
-    note(plan.ops.alpha_test ? "no colour plane changes: tests alone, no lighting"
-                             : "no colour plane changes: depth alone, no lighting");
+    notes.skipped(Effect::shading, EffectReason::no_color_stored);
     return;
   }
-  if (reasons) note_unused_colors(plan, draw, layout, *reasons);
+  note_unused_colors(plan, draw, layout, notes);
+  if (!state.lighting) notes.skipped(Effect::lighting, EffectReason::disabled);
   if (plan.uses_color_indices) {
-    note("unlit indices of the vertices");
+    notes.active(Effect::color_indices);
   } else if (!state.lighting) {
     plan.uses_vertex_colors = plan.vertex_alpha = draw.mesh.has_colors();
     plan.alpha[0] = plan.alpha[1] = clamp_unit(state.material.diffuse.a);
     if (!plan.uses_vertex_colors) {
-      note("unlit, no vertex colours: one colour for the draw");
+      notes.skipped(Effect::vertex_colors, EffectReason::not_in_mesh);
+      notes.active(Effect::shading, EffectReason::per_draw);
       set_constant_color(plan, rgb(state.material.diffuse), layout);
       return;
     }
-    note("unlit vertex colours");
+    notes.active(Effect::vertex_colors);
   } else {
-    plan_lights(plan, draw, layout, reasons);
+    plan_lights(plan, draw, layout, notes);
     if (has_constant_color(plan)) {
       plan.two_sided = false;
       if (plan.is_index[0]) plan.constant_index = unlit_index(plan.front);
-      note("no light depends on the surface: one colour for the draw");
+      notes.skipped(Effect::lighting, EffectReason::independent_of_surface);
+      notes.active(Effect::shading, EffectReason::per_draw);
       set_constant_color(plan, plan.front.base, layout);
       return;
     }
@@ -239,8 +238,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan.deferred = !is_order_dependent(plan, layout);
     plan_texturing(plan, false);
     plan.smooth_normals = generate;
-    note(plan.deferred ? "lit at each visible pixel, once"
-                       : "lit at each pixel of each triangle: its operations depend on the order");
+    notes.active(Effect::shading, plan.deferred ? EffectReason::per_pixel : EffectReason::per_fragment);
   } else if (state.shading == Shading::flat ||
              plan.topology == Topology::points) {  // a point has one colour in any case
     plan.face_normals = generate && has_faces;
@@ -255,10 +253,11 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
       plan.flat = true;
       plan.scaled_colors = false;
     }
-    note(plan.topology == Topology::points ? "points have one colour each"
-         : plan.face_normals               ? "flat, lit once a triangle with its face's normal"
-         : by_triangle                     ? "flat, one colour a triangle: that of its quad's vertex"
-                                           : "flat, lit at the vertices");
+    EffectReason rate = EffectReason::per_vertex;
+    if (plan.topology == Topology::points) rate = EffectReason::per_point;
+    else if (plan.face_normals) rate = EffectReason::per_face;
+    else if (by_triangle) rate = EffectReason::per_provoking_vertex;
+    notes.active(Effect::shading, rate);
   } else {
     plan.source = ColorSource::interpolated;
     plan.smooth_normals = generate;
@@ -270,11 +269,25 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     const bool shades_visible = layout.index || layout.luminance || plan.textures_per_pixel ||
                                 (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));
     plan.deferred = shades_visible && !is_order_dependent(plan, layout);
-    note(plan.deferred ? "colours interpolated at each visible pixel, once" : "colours interpolated at once");
+    notes.active(Effect::shading,
+                 plan.deferred ? EffectReason::interpolated_per_pixel : EffectReason::interpolated);
   }
-  if (generate && !has_faces) note("the mesh has neither normals nor faces: light of no direction alone");
-  if (generate && plan.smooth_normals && has_faces)
-    note("the mesh has no normals: area-weighted means over the faces at each position");
+  if (!generate) return;
+  if (!has_faces) notes.skipped(Effect::generated_normals, EffectReason::no_faces);
+  else
+    notes.active(Effect::generated_normals,
+                 plan.smooth_normals ? EffectReason::mean_normals : EffectReason::face_normals);
+}
+
+void note_depth(const DrawPlan& plan, const DrawState& state, const FrameBufferState& target,
+                const EffectNotes& notes) {
+  if (target.depth_format == DepthFormat::none)
+    return notes.skipped(Effect::depth_test, EffectReason::no_depth_buffer);
+  if (!state.depth.enabled) return notes.skipped(Effect::depth_test, EffectReason::disabled);
+  if (!plan.uses_depth) return notes.skipped(Effect::depth_test, EffectReason::passes_and_writes_nothing);
+  notes.active(Effect::depth_test);
+  if (plan.depth_write) notes.active(Effect::depth_write);
+  else notes.skipped(Effect::depth_write, EffectReason::disabled);
 }
 
 // Points, lines or polygons, which sides of these are seen, and in which style.
@@ -338,7 +351,7 @@ void DrawPlan::reset() {
 }
 
 void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target, bool capture_normals,
-               std::string* reasons) {
+               const EffectNotes& notes) {
   const DrawState& state = draw.state;
   plan.reset();
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
@@ -348,7 +361,7 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
     plan_transform(plan, draw, target);
     plan_elements(plan, draw);
     plan_faces(plan, draw, target.layout);
-    if (reasons && state.shadow_on) *reasons += "  a planar shadow: unlit, in one colour\n";
+    if (state.shadow_on) notes.active(Effect::planar_shadow);
   }
   if (state.scissor) plan.rect = intersect(plan.rect, raster_rect(*state.scissor, target.format.height));
 
@@ -357,48 +370,39 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
   plan.depth_write = state.depth.write;
   // A test that always passes and writes nothing is no test.
   plan.uses_depth = has_depth && !(state.depth.test == Compare::always && !state.depth.write);
-  if (reasons) {
-    *reasons += !has_depth ? "  no depth test\n"
-                : !plan.uses_depth
-                    ? "  depth: always passes and writes nothing, left out\n"
-                    : std::string("  depth test") + (plan.depth_write ? "" : ", no write") + "\n";
-    if (plan.write_mask != 0 && plan.write_mask != 0xffffffffu)
-      *reasons += "  some colour planes are masked\n";
-  }
+  note_depth(plan, state, target, notes);
+  if (plan.write_mask != 0 && plan.write_mask != 0xffffffffu) notes.active(Effect::plane_masks);
   const FragmentPlan fragments =
-      plan_fragments(state, target, plan.write_mask != 0, plan.only_indices(), reasons);
+      plan_fragments(state, target, plan.write_mask != 0, plan.only_indices(), notes);
   plan.ops = fragments.ops;
   plan.uses_stencil = fragments.uses_stencil;
   if (plan.uses_depth && plan.topology == Topology::triangles) {
     plan.offset_factor = state.polygon_offset.factor;
     plan.offset_units = state.polygon_offset.units;
   }
-  if (reasons && plan.has_offset()) *reasons += "  polygon offset\n";
-  if (reasons && plan.outlines)
-    *reasons += "  polygons are drawn as lines or points: their fragments are made pixel by pixel\n";
+  if (plan.has_offset()) notes.active(Effect::polygon_offset);
+  if (plan.outlines) notes.active(Effect::polygon_mode);
   plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines;
   plan.float_colors =
       plan.has_ops && (!fragments.is_stencil_only || plan.has_offset() || plan.outlines || draw.pixels ||
                        plan.topology != Topology::triangles || target.format.samples > 1);
-  if (reasons && target.format.samples > 1)
-    *reasons += "  " + std::to_string(target.format.samples) +
-                " samples a pixel: coverage, depth and stencil at each, the colour once\n";
+  if (target.format.samples > 1)
+    notes.add({.effect = Effect::multisampling, .samples = target.format.samples});
   if (draw.pixels) {
-    plan_pixel_colors(plan, *draw.pixels, reasons);
+    plan_pixel_colors(plan, *draw.pixels, notes);
   } else {
     const bool stores_colors = plan.write_mask != 0 && !plan.only_indices();
     plan.texture =
         plan_texture(draw,
                      {stores_colors, plan.ops.alpha_test ||
                                          (stores_colors && (plan.ops.blend || target.layout.alpha_bits > 0))},
-                     reasons);
+                     notes);
     plan.float_colors |= plan.has_ops && plan.texture.use == TexturePlan::Use::texels;
-    plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
+    plan_color(plan, draw, target.layout, target.format.samples > 1, notes);
   }
-  if (reasons && plan.texture.use == TexturePlan::Use::one_color)
-    *reasons += plan.textures_per_pixel
-                    ? "  texture: one colour, worked into each pixel's\n"
-                    : "  texture: one colour, folded into the colours of vertices, faces or the draw\n";
+  if (plan.texture.use == TexturePlan::Use::one_color)
+    notes.active(Effect::texture,
+                 plan.textures_per_pixel ? EffectReason::one_color_per_pixel : EffectReason::folded);
   plan.varyings = varying_layout(plan, capture_normals);
   if (plan.varyings.texcoord >= 0) plan.texture.texture.attribute = plan.varyings.texcoord;
   const bool writes_depth = plan.uses_depth && plan.depth_write;
@@ -407,7 +411,7 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
                           (plan.ops.alpha_test && plan.ops.alpha_func == Compare::never);
   plan.is_noop =
       plan.rect.empty() || (!writes_stencil && (never_seen || (plan.write_mask == 0 && !writes_depth)));
-  if (reasons && plan.is_noop) *reasons += "  can change no pixel: left out\n";
+  if (plan.is_noop) notes.skipped(Effect::draw, EffectReason::no_pixel_can_change);
 }
 
 }  // namespace tessera::detail

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "engine/plan/texture_plan.h"
@@ -91,11 +90,11 @@ struct DrawPlan {
   void reset();
 };
 
-/// @param plan  is replaced
-/// @param capture_normals  each pixel's normal is wanted besides its colour
-/// @param reasons  if given, receives a line for each effect: what is in, what is left out, why.
+/// @param plan             is replaced
+/// @param capture_normals  the frame captures normals
+/// @param notes            receives the effects of the draw
 void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target, bool capture_normals,
-               std::string* reasons);
+               const EffectNotes& notes);
 
 /// The bits of colour words that may change; all 32 for all planes.
 std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask,

@@ -1,9 +1,8 @@
 // Which operations the fragments of a draw need: what changes nothing is left out.
 #pragma once
 
-#include <string>
-
 #include "engine/buffers/frame_buffer_state.h"
+#include "shading/effect_notes.h"
 #include "shading/fragment_ops.h"
 
 namespace tessera::detail {
@@ -20,8 +19,8 @@ FragmentOps dither_ops(const FrameBufferState& target);
 
 /// @param writes_color  some colour plane may change
 /// @param only_indices  what is written are indices, which nothing dithers
-/// @param reasons  if given, receives a line for each operation
+/// @param notes  receives the operations
 FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color,
-                            bool only_indices, std::string* reasons);
+                            bool only_indices, const EffectNotes& notes);
 
 }  // namespace tessera::detail

@@ -188,7 +188,7 @@ void plan_draws(FrameCommands& commands, FrameRecording& recording, WorkerPool& 
   const auto plan_range = [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
       plan_draw(commands.plan_memory[i], recording.draws[i], *recording.target,
-                !recording.capture.normals.empty(), nullptr);
+                !recording.capture.normals.empty(), EffectNotes(nullptr));
   };
   if (commands.plan_memory.size() < draws) commands.plan_memory.resize(draws);
   if (draws <= kDrawsPerTask) {

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "engine/record/recording.h"
+#include "shading/effect_notes.h"
 #include "shading/texture.h"
 
 namespace tessera::detail {
@@ -25,8 +25,9 @@ struct TextureNeeds {
   bool alpha = false;  ///< is looked at: by the alpha test, by blending, or stored
 };
 
-/// @param reasons  if given, receives lines about what is used of the texture, or why it is left out; none
-/// yet about one colour that is used
-TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, std::string* reasons);
+/// @param notes  receives the use of the texels, or why they are skipped; the caller notes the use of a
+/// single
+///               colour
+TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, const EffectNotes& notes);
 
 }  // namespace tessera::detail

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/plan/draw_plan.h"
+#include "engine/plan/explain_text.h"
 #include "engine/record/checks.h"
 #include "engine/record/planar_shadow.h"
 #include "engine/record/recording.h"
@@ -235,17 +236,22 @@ void Frame::reset() noexcept { recording_->clear(); }
 
 std::size_t Frame::draw_count() const noexcept { return recording_->draws.size(); }
 
-std::string Frame::explain(std::size_t draw_index) const {
+std::vector<EffectNote> Frame::effects(std::size_t draw_index) const {
   if (draw_index >= recording_->draws.size())
-    throw Error("Frame::explain: draw " + std::to_string(draw_index) + " is asked for, the frame has " +
+    throw Error("Frame::effects: draw " + std::to_string(draw_index) + " is asked for, the frame has " +
                 std::to_string(recording_->draws.size()) + " draws, counted from 0");
-  return translate_bad_alloc("Frame::explain", [&] {
+  return translate_bad_alloc("Frame::effects", [&] {
     const FloatingPointMode mode;
-    std::string reasons;
+    std::vector<EffectNote> notes;
     DrawPlan plan;
-    plan_draw(plan, recording_->draws[draw_index], *recording_->target, false, &reasons);
-    return reasons;
+    plan_draw(plan, recording_->draws[draw_index], *recording_->target, false, EffectNotes(&notes));
+    return notes;
   });
+}
+
+std::string Frame::explain(std::size_t draw_index) const {
+  const std::vector<EffectNote> notes = effects(draw_index);
+  return translate_bad_alloc("Frame::explain", [&] { return explain_text(notes); });
 }
 
 }  // namespace tessera

@@ -45,6 +45,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <tessera/effect_note.hpp>
 #include <tessera/enums.hpp>
 
 #include "export.h"
@@ -623,6 +624,11 @@ struct FrameStats {
          tile_seconds = 0;  ///< of each stage; tiles with scan-out and store
 };
 
+/// Stable names in kebab case, for programs: "depth-test", "no-depth-buffer". Empty for values that are no
+/// enumerators.
+TESSERA_API std::string_view code(Effect effect);
+TESSERA_API std::string_view code(EffectReason reason);
+
 class Renderer;
 
 /// Records what happens in a frame, in order. Nothing is rendered until Renderer::finish. The frame buffer
@@ -670,8 +676,11 @@ class TESSERA_API Frame {
   /// size.
   void capture(const Capture& capture);
 
-  /// What the code that runs for draw i, bitmaps and images counted, contains, and why: one line for each
-  /// effect. For people who want to know what they pay for.
+  /// The effects of a draw: which of them run, which are skipped, and why.
+  /// @param draw_index  from 0; bitmaps and images count as draws
+  /// @throws Error  if the frame has no such draw
+  std::vector<EffectNote> effects(std::size_t draw_index) const;
+  /// The same as text, one line per effect. Wording may change between versions; programs use effects().
   std::string explain(std::size_t draw_index) const;
   std::size_t draw_count() const noexcept;
   /// Forgets the clears, accumulations and draws, and what to keep. Camera, lights and light model stay.

@@ -209,9 +209,9 @@ TEST(Bitmap, IsADrawToCapturesExplanationsAndCounts) {
                         state);  // outside
       frame.draw_bitmap({.bits = stripes.data(), .width = 8, .height = 1, .x = 0, .y = 3}, state);
       EXPECT_EQ(frame.draw_count(), 4u);
-      EXPECT_THAT(frame.explain(1), AllOf(HasSubstr("a bitmap of 8 x 64: one colour"),
-                                          HasSubstr("depth test"), testing::Not(HasSubstr("left out"))));
-      EXPECT_THAT(frame.explain(2), HasSubstr("can change no pixel: left out"));
+      EXPECT_THAT(frame.explain(1), AllOf(HasSubstr("bitmap: 8 x 64, one colour"), HasSubstr("depth test"),
+                                          testing::Not(HasSubstr("skipped"))));
+      EXPECT_THAT(frame.explain(2), HasSubstr("draw: skipped, it can change no pixel"));
       std::vector<std::uint32_t> draw_ids(pixel_count(buffer)), primitive_ids(draw_ids.size());
       std::vector<float> normals(3 * draw_ids.size());
       frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals});

@@ -284,10 +284,10 @@ TEST(Texture, OneColorIsFoldedAndLooksLikeTexels) {
             state.texture = &folded;
             const FrameBufferFormat format{.width = 20, .height = 20, .samples = samples};
             const std::vector<std::uint32_t> a = drawn(mesh, state, format);
-            EXPECT_THAT(explained(mesh, state, format), HasSubstr("texture: one colour"));
+            EXPECT_THAT(explained(mesh, state, format), HasSubstr("one colour"));
             state.texture = &sampled;
             const std::vector<std::uint32_t> b = drawn(mesh, state, format);
-            EXPECT_THAT(explained(mesh, state, format), HasSubstr("texture 64x1, 4 channels"));
+            EXPECT_THAT(explained(mesh, state, format), HasSubstr("texture: 64 x 1, 4 channels"));
             for (std::size_t i = 0; i < a.size(); ++i)
               for (int shift = 0; shift < 24; shift += 8) {
                 const int apart =
@@ -310,7 +310,7 @@ TEST(Texture, WhatChangesNothingIsLeftOut) {
     state.texture_env = env;
     return explained(mesh, state);
   };
-  constexpr const char* kNothing = "texture: one colour that changes nothing, left out";
+  constexpr const char* kNothing = "texture: skipped, its one colour changes nothing";
   EXPECT_THAT(explain(white, TextureEnv::modulate), HasSubstr(kNothing));
   EXPECT_THAT(explain(black, TextureEnv::add), HasSubstr(kNothing));
   EXPECT_THAT(explain(black, TextureEnv::blend), HasSubstr(kNothing));
@@ -331,12 +331,12 @@ TEST(Texture, WithoutColorsToChangeItIsLeftOut) {
   DrawState state;
   state.texture = &texture;
   state.color_mask = {false, false, false, false};
-  EXPECT_THAT(explained(textured_window(), state), HasSubstr("texture left out"));
+  EXPECT_THAT(explained(textured_window(), state), HasSubstr("texture: skipped"));
   state.alpha_test = AlphaTest{};
   EXPECT_THAT(explained(textured_window(), state),
-              AllOf(HasSubstr("texture 4x4"), Not(HasSubstr("left out: no colour"))));
+              AllOf(HasSubstr("texture: 4 x 4"), Not(HasSubstr("texture: skipped"))));
   state.texture = &without_alpha;
-  EXPECT_THAT(explained(textured_window(), state), HasSubstr("texture left out"));
+  EXPECT_THAT(explained(textured_window(), state), HasSubstr("texture: skipped"));
   state = {};
   state.texture = &texture;
   state.lighting = false;
@@ -344,7 +344,7 @@ TEST(Texture, WithoutColorsToChangeItIsLeftOut) {
   mesh.color_indices = {1, 2, 3, 4};
   EXPECT_THAT(
       explained(mesh, state, {.width = 16, .height = 16, .color_mode = ColorMode::index, .color_bits = 8}),
-      HasSubstr("texture left out"));
+      HasSubstr("texture: skipped"));
 }
 
 // s = t = 0 everywhere: the texel there, under a linear filter the mean of the four around the corner.
