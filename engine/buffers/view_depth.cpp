@@ -16,8 +16,8 @@ ViewDepth::ViewDepth(const Camera& camera, float background, const char* functio
     std::string rows;
     for (std::size_t i = 8; i < 16; ++i)
       rows += (i == 8 ? "" : i == 12 ? " and " : ", ") + format_number(m[i]);
-    throw Error(std::string(function) + ": projection's rows of z and w are " + rows + ", they must " +
-                needed);
+    throw Error(ErrorCode::invalid_argument, std::string(function) + ": projection's rows of z and w are " +
+                                                 rows + ", they must " + needed);
   };
   if (m[8] != 0 || m[9] != 0 || m[12] != 0 || m[13] != 0)
     refuse("have 0 for x and y, or a depth has no distance of its own");

@@ -123,9 +123,11 @@ void plan_attachment_ops(AttachmentOps& attachment_ops, const FrameCommands& com
   if (!attachment_ops.used) return;
   attachment_ops.load = !starts_anew;
   if (attachment_ops.load && stored.content == Attachment::Content::undefined)
-    throw Error("Renderer::finish: the frame starts from the " + std::string(name(which)) +
-                " buffer, which the frame before did not keep; clear the whole of it first, or name it in "
-                "Frame::keep() then");
+    throw Error(
+        ErrorCode::invalid_state,
+        "Renderer::finish: the frame starts from the " + std::string(name(which)) +
+            " buffer, which the frame before did not keep; clear the whole of it first, or name it in "
+            "Frame::keep() then");
   // Clears alone need no planes.
   if (!is_changed && last_clear != nullptr && clears_are_whole &&
       !(which == Buffer::color && last_clear->dithered)) {

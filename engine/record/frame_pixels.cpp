@@ -29,11 +29,13 @@ void check_pixels(const char* function, RecordedPixels& pixels, const char* memo
   PixelRectangle& texels = pixels.rectangle;
   require_range({function, ": width"}, texels.width, 1, kMaxFrameBufferSize);
   require_range({function, ": height"}, texels.height, 1, kMaxFrameBufferSize);
-  if (texels.top_row == nullptr) throw Error(std::string(function) + ": " + memory + " is null");
+  if (texels.top_row == nullptr)
+    throw Error(ErrorCode::invalid_argument, std::string(function) + ": " + memory + " is null");
   if (texels.stride_bytes == 0) texels.stride_bytes = static_cast<std::ptrdiff_t>(row_bytes);
   if (texels.height > 1 && texels.stride_bytes < row_bytes && texels.stride_bytes > -row_bytes)
-    throw Error(std::string(function) + ": stride_bytes is " + std::to_string(texels.stride_bytes) +
-                ", a row takes " + std::to_string(row_bytes) + " bytes");
+    throw Error(ErrorCode::invalid_argument, std::string(function) + ": stride_bytes is " +
+                                                 std::to_string(texels.stride_bytes) + ", a row takes " +
+                                                 std::to_string(row_bytes) + " bytes");
   require_finite({function, ": position"}, {texels.x, texels.y});
   require_range({function, ": depth"}, pixels.depth, 0, 1);
 }

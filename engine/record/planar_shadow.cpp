@@ -29,8 +29,8 @@ Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, cons
                  {light.position[0], light.position[1], light.position[2], light.position[3]});
   const double largest = std::max({std::abs(plane[0]), std::abs(plane[1]), std::abs(plane[2])});
   if (!(largest > 0))
-    throw Error(std::string(owner) + ": the plane is " + list_of(plane, 4) +
-                ", its normal must not be 0 0 0");
+    throw Error(ErrorCode::invalid_argument, std::string(owner) + ": the plane is " + list_of(plane, 4) +
+                                                 ", its normal must not be 0 0 0");
   // A power of two keeps sums of products within a double's range and changes no bit of what follows.
   const int exponent = std::ilogb(std::max(largest, std::abs(plane[3])));
   std::array<double, 4> p, l;
@@ -45,7 +45,8 @@ Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, cons
     const bool directional = l[3] == 0;
     if (!directional)
       for (std::size_t i = 0; i < 3; ++i) l[i] /= l[3];
-    throw Error(std::string(owner)
+    throw Error(ErrorCode::invalid_argument,
+                std::string(owner)
                     .append(directional ? ": the light's direction " : ": the light at ")
                     .append(list_of(l, 3))
                     .append(directional ? " is parallel to the plane " : " lies in the plane ")
@@ -57,8 +58,8 @@ Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, cons
     for (std::size_t column = 0; column < 4; ++column) {
       m.m[4 * row + column] -= l[row] * p[column] / product;
       if (!std::isfinite(m.m[4 * row + column]))
-        throw Error(std::string(owner) + ": the shadow on the plane " + list_of(plane, 4) +
-                    " is too far away for numbers");
+        throw Error(ErrorCode::invalid_argument, std::string(owner) + ": the shadow on the plane " +
+                                                     list_of(plane, 4) + " is too far away for numbers");
     }
   return m;
 }
@@ -76,9 +77,10 @@ void apply_planar_shadow(RecordedDraw& draw) {
   const ShadowOn& shadow = *draw.state.shadow_on;
   const std::vector<Light>& lights = draw.scene_state->lights;
   if (shadow.light >= lights.size())
-    throw Error("Frame::draw: shadow_on.light is " + std::to_string(shadow.light) + ", the frame has " +
-                std::to_string(lights.size()) + (lights.size() == 1 ? " light" : " lights") +
-                ", counted from 0");
+    throw Error(ErrorCode::invalid_argument,
+                "Frame::draw: shadow_on.light is " + std::to_string(shadow.light) + ", the frame has " +
+                    std::to_string(lights.size()) + (lights.size() == 1 ? " light" : " lights") +
+                    ", counted from 0");
   require_finite({"Frame::draw: shadow_on.color"}, shadow.color);
   draw.state.transform =
       shadow_matrix("Frame::draw: shadow_on", shadow.plane, lights[shadow.light]) * draw.state.transform;

@@ -18,28 +18,32 @@ static_assert(kMaxTextureSide == kMaxTextureSize);
 
 void check_side(const char* what, int texels) {
   if (texels < 1 || texels > kMaxTextureSize)
-    throw Error(std::string("Texture: the ") + what + " is " + std::to_string(texels) +
-                " texels, must be 1 to " + std::to_string(kMaxTextureSize));
+    throw Error(ErrorCode::invalid_argument, std::string("Texture: the ") + what + " is " +
+                                                 std::to_string(texels) + " texels, must be 1 to " +
+                                                 std::to_string(kMaxTextureSize));
 }
 
 void check(const TextureImage& image, const TextureSampler& sampler) {
   check_side("width", image.width);
   check_side("height", image.height);
   if (image.channels < 1 || image.channels > 4)
-    throw Error("Texture: the image has " + std::to_string(image.channels) + " channels, must be 1 to 4");
+    throw Error(ErrorCode::invalid_argument,
+                "Texture: the image has " + std::to_string(image.channels) + " channels, must be 1 to 4");
   if (image.pixels == nullptr)
-    throw Error("Texture: the pixels are null, must be " + std::to_string(image.width) + "x" +
-                std::to_string(image.height) + " of them");
+    throw Error(ErrorCode::invalid_argument, "Texture: the pixels are null, must be " +
+                                                 std::to_string(image.width) + "x" +
+                                                 std::to_string(image.height) + " of them");
   const std::ptrdiff_t row = std::ptrdiff_t{image.width} * image.channels;
   if (image.stride_bytes != 0 && image.stride_bytes < row && image.stride_bytes > -row)
-    throw Error("Texture: the rows are " + std::to_string(image.stride_bytes) + " bytes apart, but " +
-                std::to_string(row) + " bytes long");
+    throw Error(ErrorCode::invalid_argument, "Texture: the rows are " + std::to_string(image.stride_bytes) +
+                                                 " bytes apart, but " + std::to_string(row) + " bytes long");
   require_enum({"Texture: mag"}, sampler.mag, TextureFilter::linear_mipmap_linear);
   require_enum({"Texture: min"}, sampler.min, TextureFilter::linear_mipmap_linear);
   for (const TextureWrap wrap : {sampler.wrap_s, sampler.wrap_t})
     require_enum({"Texture: a wrap"}, wrap, TextureWrap::mirrored_repeat);
   if (sampler.mag != TextureFilter::nearest && sampler.mag != TextureFilter::linear)
-    throw Error("Texture: mag is a filter with mipmaps, must be nearest or linear");
+    throw Error(ErrorCode::invalid_argument,
+                "Texture: mag is a filter with mipmaps, must be nearest or linear");
 }
 
 std::uint32_t packed_texel(const std::uint8_t* pixel, int channels) {

@@ -14,7 +14,7 @@ decltype(auto) translate_bad_alloc(const char* function, const Run& run) {
   try {
     return run();
   } catch (const std::bad_alloc&) {
-    throw Error(std::string(function) + ": not enough memory");
+    throw Error(ErrorCode::out_of_memory, std::string(function) + ": not enough memory");
   }
 }
 

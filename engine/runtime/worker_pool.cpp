@@ -171,10 +171,12 @@ void WorkerPool::run(std::size_t count, const TaskRef& task) {
   }
   if (dispatch.failure) std::rethrow_exception(dispatch.failure);
   if (const int invalid_worker = dispatch.invalid_worker.load(std::memory_order_acquire); invalid_worker != 0)
-    throw Error("Renderer: the executor called work for worker " + std::to_string(invalid_worker) +
-                ", run() must call it for 0 .. " + std::to_string(workers - 1));
+    throw Error(ErrorCode::executor_failure,
+                "Renderer: the executor called work for worker " + std::to_string(invalid_worker) +
+                    ", run() must call it for 0 .. " + std::to_string(workers - 1));
   if (dispatch.done.load(std::memory_order_acquire) != count)
     throw Error(
+        ErrorCode::executor_failure,
         "Renderer: the executor returned before its work was done; run() must call work for each worker and "
         "wait for all of them");
 }

@@ -65,16 +65,34 @@ struct RendererState;
 struct TextureState;
 }  // namespace detail
 
+/// Kinds of errors. Values are stable; new enumerators are appended.
+enum class ErrorCode : std::uint8_t {
+  invalid_argument,     ///< a value is out of range, or values do not fit together
+  incompatible_format,  ///< the frame buffer's format lacks what is asked for
+  invalid_state,     ///< an object that was moved from, a buffer that was not kept, a call at the wrong time
+  unsupported,       ///< this build or machine cannot do it
+  out_of_memory,     ///< an allocation failed
+  cancelled,         ///< a progress callback stopped the frame
+  executor_failure,  ///< an Executor broke its contract
+  internal           ///< a defect of the library
+};
+
 /// The one exception type of the library: also where memory runs out, but in the small lists that name things
 /// (material_names, available_instruction_sets, serial_executor).
 class TESSERA_API Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(const std::string& message) : Error(ErrorCode::invalid_argument, message) {}
+  Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+
+  ErrorCode code() const noexcept { return code_; }
+
+ private:
+  ErrorCode code_;
 };
-/// The one that Renderer::finish throws because a progress callback asked it to stop.
+/// Thrown by Renderer::finish if its progress callback returned false.
 class TESSERA_API Cancelled : public Error {
  public:
-  using Error::Error;
+  explicit Cancelled(const std::string& message) : Error(ErrorCode::cancelled, message) {}
 };
 
 struct Vec3 {
