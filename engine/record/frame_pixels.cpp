@@ -11,19 +11,6 @@ namespace tessera {
 using namespace detail;
 namespace {
 
-DrawState draw_state(const FragmentState& s) {
-  DrawState state;
-  state.depth = s.depth;
-  state.alpha_test = s.alpha_test;
-  state.stencil = s.stencil;
-  state.blend = s.blend;
-  state.logic_op = s.logic_op;
-  state.color_mask = s.color_mask;
-  state.plane_mask = s.plane_mask;
-  state.scissor = s.scissor;
-  return state;
-}
-
 // What bitmaps and images have in common. `row_bytes` are those that a row needs.
 void check_pixels(const char* function, RecordedPixels& pixels, const char* memory, std::int64_t row_bytes) {
   PixelRectangle& texels = pixels.rectangle;

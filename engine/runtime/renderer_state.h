@@ -44,7 +44,7 @@ struct RendererState {
   RendererState(RendererOptions o, InstructionSet i)
       : options(std::move(o)),
         isa(i),
-        worker_pool(options.threads, options.executor, options.task_order),
+        worker_pool(options.threads, options.executor, options.debug.task_order),
         bin_stage(options.bin_memory, worker_pool, isa) {}
 
   FrameStats run(FrameRecording& recording, const ImageTarget* image);

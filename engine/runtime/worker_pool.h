@@ -27,7 +27,7 @@ class WorkerPool {
  public:
   /// @param threads  1 or more, the caller's included
   /// @param executor  null: a oneTBB arena of its own, or for one thread the caller's
-  /// @param order  see RendererOptions::task_order
+  /// @param order  see DebugOptions::task_order
   explicit WorkerPool(int threads, std::shared_ptr<Executor> executor = nullptr, std::uint32_t order = 0);
   ~WorkerPool();
   WorkerPool(WorkerPool&&) noexcept;

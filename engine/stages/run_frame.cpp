@@ -256,12 +256,12 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   frame.accumulations = commands.accumulations.data();
   frame.accumulation_count = static_cast<std::uint32_t>(commands.accumulations.size());
   frame.batches = &bin_stage.batches();
-  frame.shade_immediately = !options.defer_shading;
+  frame.shade_immediately = !options.debug.defer_shading;
   frame.samples = target.format.samples;
   frame.loads_color = commands.color.load;
   frame.loads_depth = commands.depth.load;
   frame.loads_stencil = commands.stencil.load;
-  const CaptureStage capture(commands, frame, recording.capture, options.count_fragments, isa);
+  const CaptureStage capture(commands, frame, recording.capture, options.debug.count_fragments, isa);
   if (commands.stores() || image || !commands.plans.empty() || capture.any()) {
     const TileStage stage(commands, frame, target, image, capture, scan_out_cache, isa);
     prepare_workspaces({.colors = stage.buffered_tiles(),

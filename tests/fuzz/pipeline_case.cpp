@@ -60,12 +60,12 @@ void read_options(FuzzInput& from, RendererOptions (&options)[2]) {
   for (int way = 0; way < 2; ++way) {
     options[way].threads = 1;
     options[way].tile_size = kTileSizes[bits >> 2 * way & 3];
-    options[way].defer_shading = (bits >> (4 + way) & 1) == 0;
-    options[way].count_fragments = (bits >> (6 + way) & 1) != 0;
+    options[way].debug.defer_shading = (bits >> (4 + way) & 1) == 0;
+    options[way].debug.count_fragments = (bits >> (6 + way) & 1) != 0;
   }
   const int work = from.byte();
   options[1].threads = 1 + (work & 0x3f) % 3;
-  options[1].task_order = work & 0x3f;
+  options[1].debug.task_order = work & 0x3f;
   if ((work & 0x40) != 0) options[1].bin_memory = kMinBinMemory;
   options[0].instruction_set = InstructionSet::scalar;
   options[1].instruction_set =

@@ -99,7 +99,7 @@ struct RandomOperations {
                          .y = y,
                          .depth = depth,
                          .color = color(random)},
-                        fragment_state_of(s));
+                        fragment_state(s));
     else
       frame.draw_image({.pixels = texels.data(),
                         .width = width,
@@ -110,7 +110,7 @@ struct RandomOperations {
                         .zoom_x = zoom_x,
                         .zoom_y = zoom_y,
                         .depth = depth},
-                       fragment_state_of(s));
+                       fragment_state(s));
   }
 
   // Polygons filled or as outlines, every second mesh textured, some as their shadows.

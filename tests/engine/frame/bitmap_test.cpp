@@ -117,7 +117,7 @@ TEST(Bitmap, GoesThroughEveryOperationAsTrianglesDo) {
       bitmap.x = place.x, bitmap.y = place.y;
       bits.draw_bitmap(bitmap, state);
       const MeshData whole = whole_window(static_cast<float>(2 * depth - 1));
-      DrawState same = draw_state_of(state);
+      DrawState same = draw_state(state);
       same.lighting = false;
       same.material.diffuse = color;
       same.scissor = state.scissor ? intersection(*state.scissor, place) : place;
@@ -177,7 +177,7 @@ TEST(Bitmap, TakesItsPlaceAmongClearsDrawsAndAccumulation) {
       frame.accumulate({.op = AccumOp::return_color, .value = 1, .scissor = Rect{30, 0, 4, 8}});
       frame.clear({.color = Color{1, 1, 0, 1}, .scissor = Rect{10, 0, 4, 8}});
       frame.draw_bitmap(square(40, 4, {0, 1, 1, 1}));
-      Renderer({.threads = 1, .defer_shading = defer}).finish(frame);
+      Renderer({.threads = 1, .debug = {.defer_shading = defer}}).finish(frame);
       const std::vector<std::uint32_t> words = packed_colors(buffer);
       const auto at = [&](int x, int y) { return words[static_cast<std::size_t>((39 - y) * 48 + x)]; };
       EXPECT_EQ(at(2, 2) & 0xffff, 0u) << "red light alone";
@@ -216,7 +216,7 @@ TEST(Bitmap, IsADrawToCapturesExplanationsAndCounts) {
       std::vector<float> normals(3 * draw_ids.size());
       frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals});
       const FrameStats stats =
-          Renderer({.threads = 1, .tile_size = 32, .count_fragments = true}).finish(frame);
+          Renderer({.threads = 1, .tile_size = 32, .debug = {.count_fragments = true}}).finish(frame);
       EXPECT_EQ(stats.fragments, 70u * 50 + 4 * 50 + 4);
       EXPECT_EQ(stats.triangles_in, 2u);
       std::size_t drawn = 0;

@@ -211,7 +211,7 @@ TEST(ColorIndex, HasTheSameBitsHoweverItIsMade) {
                           {.threads = threads,
                            .tile_size = tile_size,
                            .instruction_set = set,
-                           .defer_shading = defer}),
+                           .debug = {.defer_shading = defer}}),
                     expected)
               << name(set) << ", tiles of " << tile_size << ", " << threads << " threads, deferred " << defer;
 }

@@ -473,7 +473,7 @@ TEST(Texture, BitsDependOnNothingButTheFrame) {
       for (const int tile_size : {32, 64, 128})
         EXPECT_EQ(print({.threads = 2, .tile_size = tile_size, .instruction_set = set}), expected)
             << name(set) << ", tiles of " << tile_size << ", " << samples << " samples";
-    EXPECT_EQ(print({.defer_shading = false}), expected) << samples << " samples";
+    EXPECT_EQ(print({.debug = {.defer_shading = false}}), expected) << samples << " samples";
   }
 }
 
@@ -491,7 +491,7 @@ TEST(Texture, CapturesAndCountsSeeWhatAlphaTestsLetThrough) {
   std::vector<std::uint32_t> draw_ids(8);
   std::vector<float> normals(24);
   frame.capture({.draw_ids = draw_ids, .normals = normals});
-  const FrameStats stats = Renderer({.threads = 1, .count_fragments = true}).finish(frame);
+  const FrameStats stats = Renderer({.threads = 1, .debug = {.count_fragments = true}}).finish(frame);
   EXPECT_EQ(stats.fragments, 8u);
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_EQ(draw_ids[i], i % 4 < 2 ? Capture::kNothing : 0u) << i;
