@@ -7,6 +7,7 @@
 #include "engine/buffers/view_depth.h"
 #include "engine/plan/draw_plan.h"
 #include "engine/record/checks.h"
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/out_of_memory.h"
 #include "engine/runtime/worker_pool.h"
 #include "engine/tessera/tessera.hpp"

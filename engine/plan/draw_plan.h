@@ -103,4 +103,12 @@ std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t pl
 /// A rectangle in window coordinates as pixels in raster space.
 PixelRect raster_rect(const Rect& rect, int frame_height);
 
+inline PixelRect whole_buffer(const FrameBufferState& target) {
+  return {0, 0, target.format.width, target.format.height};
+}
+/// Whether `rect` contains all of `whole`.
+inline bool covers(const PixelRect& rect, const PixelRect& whole) {
+  return rect.x0 <= whole.x0 && rect.y0 <= whole.y0 && rect.x1 >= whole.x1 && rect.y1 >= whole.y1;
+}
+
 }  // namespace tessera::detail

@@ -4,6 +4,7 @@
 
 #include "engine/record/checks.h"
 #include "engine/record/recording.h"
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/out_of_memory.h"
 #include "engine/runtime/worker_pool.h"
 

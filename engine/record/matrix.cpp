@@ -9,6 +9,7 @@
 
 #include "engine/record/checks.h"
 #include "engine/record/matrix.h"
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/worker_pool.h"
 #include "engine/tessera/tessera.hpp"
 #include "shading/trigonometry.h"

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/record/checks.h"
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/worker_pool.h"
 
 namespace tessera {

@@ -6,6 +6,7 @@
 #include "engine/record/checks.h"
 #include "engine/record/mipmaps.h"
 #include "engine/record/texture_state.h"
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/out_of_memory.h"
 #include "engine/runtime/worker_pool.h"
 #include "framebuffer/instruction_set.h"

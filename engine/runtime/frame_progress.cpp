@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/worker_pool.h"
 #include "engine/tessera/tessera.hpp"
 

@@ -87,16 +87,4 @@ void run_isolated(const std::function<void()>& run);
 /// Number of cores that the process may use, at least 1.
 int default_concurrency();
 
-/// Rounding to nearest, denormals kept, until the end of the scope; then what it was before.
-class FloatingPointMode {
- public:
-  FloatingPointMode();
-  ~FloatingPointMode();
-  FloatingPointMode(const FloatingPointMode&) = delete;
-  FloatingPointMode& operator=(const FloatingPointMode&) = delete;
-
- private:
-  unsigned long long saved_;
-};
-
 }  // namespace tessera::detail

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/plan/tile_draws.h"
 #include "raster/polygon_offset.h"
 #include "raster/sample_positions.h"
 
@@ -74,7 +75,7 @@ void BinStage::prepare_draws(int samples) {
                .triangles = geometry.mesh->triangles_per_polygon(),
                .boundary = geometry.buffers->boundary.data()};
       std::uint32_t number = draw.draw;
-      for (const PolygonMode style : styles_of(plan)) modes.draw[static_cast<int>(style)] = number++;
+      for (const PolygonMode style : polygon_modes_of(plan)) modes.draw[static_cast<int>(style)] = number++;
       draw.modes = &modes;
     }
     draws_.push_back(draw);

@@ -60,7 +60,7 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
       render_(render_tile(isa)),
       store_planes_(store_planes_for(isa)),
       load_planes_(load_planes_for(isa)),
-      buffered_tiles_(commands.color.store ? tiles_per_store(isa, frame.grid.tile_size) : 1) {
+      buffered_tiles_(commands.attachments.color.stores() ? tiles_per_store(isa, frame.grid.tile_size) : 1) {
   if (image == nullptr) return;
   target_region_ = target_region(*image);
   const Palette* const palette = target.layout.index ? &target.palette : nullptr;
@@ -69,11 +69,11 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
   else scan_out_cache.scan_out.emplace(target.layout, palette, order, isa);
   // Where the picture is all that is wanted, and starts from a clear of all of it, a tile without triangles
   // need not go through tile memory.
-  copies_cleared_row_ = !capture.any() && !commands.stores() && !commands.color.load &&
-                        !commands.clears.empty() && commands.accumulations.empty() &&
-                        std::all_of(commands.clears.begin(), commands.clears.end(), [&](const TileClear& c) {
-                          return covers_frame(c, frame.grid) && !c.dithered;
-                        });
+  copies_cleared_row_ =
+      !capture.any() && !commands.attachments.any_stores() && !commands.attachments.color.loads() &&
+      !commands.clears.empty() && commands.accumulations.empty() &&
+      std::all_of(commands.clears.begin(), commands.clears.end(),
+                  [&](const TileClear& c) { return covers_frame(c, frame.grid) && !c.dithered; });
   if (!copies_cleared_row_) return;
   std::uint32_t word = 0;
   for (const TileClear& clear : commands.clears) word = clear.color ? clear.packed_color : word;
@@ -92,7 +92,7 @@ void TileStage::build_strips(const TileRange& tiles, const WorkerPool& workers, 
     return copies_cleared_row_ && batches.known_empty(row * grid.columns() + column);
   };
   // Tiles that share a cache line of a plane belong to one worker.
-  const int length = commands_.stores() ? kLinePixels / grid.tile_size : 1;
+  const int length = commands_.attachments.any_stores() ? kLinePixels / grid.tile_size : 1;
   std::array<std::uint32_t, kLoadClasses>
       next{};  // how many strips have a load_class, then where the next one of them goes
   memory.strips.clear();
@@ -130,7 +130,7 @@ void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCo
       colors[t] = workspace.select_color(t);
       render_tile_at(strip.row, first + static_cast<int>(t), workspace, counts);
     }
-    if (commands_.color.store)
+    if (commands_.attachments.color.stores())
       store_planes_({colors.data(), count}, {first * size, strip.row * size, size, 0}, target_.color.planes,
                     ~0u);
   }
@@ -140,29 +140,29 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   const TileGrid& grid = frame_.grid;
   const int size = grid.tile_size, x0 = column * size, y0 = row * size;
   const bool shown = !intersect(target_region_, {x0, y0, x0 + size, y0 + size}).empty();
-  if (!shown && !commands_.stores() && !capture_.any()) return;
+  if (!shown && !commands_.attachments.any_stores() && !capture_.any()) return;
   const TilePlace color_place{x0, y0, size, 0},
       depth_place{x0, y0, size, stored_depth_from_key(target_.depth_format, 0)};
   auto* depth_words = reinterpret_cast<std::uint32_t*>(workspace.depth());
   auto* stencil_words =
-      commands_.stencil.used ? reinterpret_cast<std::uint32_t*>(workspace.stencil()) : nullptr;
+      commands_.attachments.stencil.used() ? reinterpret_cast<std::uint32_t*>(workspace.stencil()) : nullptr;
   const auto load_tests = [&] {
-    load(commands_.depth, target_.depth, depth_words, depth_place);
-    load(commands_.stencil, target_.stencil, stencil_words, color_place);
+    load(commands_.attachments.depth, target_.depth, depth_words, depth_place);
+    load(commands_.attachments.stencil, target_.stencil, stencil_words, color_place);
   };
   if (capture_.any()) counts.fragments += capture_.render_tile(row, column, workspace, load_tests);
-  load(commands_.color, target_.color, workspace.color(), color_place);
+  load(commands_.attachments.color, target_.color, workspace.color(), color_place);
   load_tests();
-  if (commands_.accumulation.used) load_accumulation(color_place, workspace.accumulation());
+  if (commands_.attachments.accumulation.used()) load_accumulation(color_place, workspace.accumulation());
   const TileCounts tile = render_(frame_, row * grid.columns() + column, workspace);
   counts.shaded_pixels += tile.shaded_pixels;
   counts.touched += tile.touched ? 1 : 0;
   if (shown) scan_out(x0, y0, workspace);
-  store(commands_.depth, target_.depth, depth_words, depth_place);
-  store(commands_.stencil, target_.stencil, stencil_words, color_place);
-  if (commands_.accumulation.store)
+  store(commands_.attachments.depth, target_.depth, depth_words, depth_place);
+  store(commands_.attachments.stencil, target_.stencil, stencil_words, color_place);
+  if (commands_.attachments.accumulation.stores())
     for (std::size_t c = 0; c < 4; ++c)
-      store(commands_.accumulation, target_.accumulation[c],
+      store(commands_.attachments.accumulation, target_.accumulation[c],
             reinterpret_cast<const std::uint32_t*>(workspace.accumulation()[c]), color_place);
 }
 
@@ -185,24 +185,24 @@ void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
                 4 * static_cast<std::size_t>(region.x1 - region.x0));
 }
 
-void TileStage::load(const AttachmentOps& attachment_ops, const Attachment& stored, std::uint32_t* words,
+void TileStage::load(const AttachmentOps& ops, const Attachment& stored, std::uint32_t* words,
                      const TilePlace& place) const {
-  if (!attachment_ops.used || !attachment_ops.load) return;
+  if (!ops.loads()) return;
   if (stored.content == Attachment::Content::fast_cleared)
     std::fill_n(words, place.tile_size * place.tile_size, stored.clear_value ^ place.flip);
   else load_planes_(words, place, stored.planes);
 }
 
-void TileStage::store(const AttachmentOps& attachment_ops, Attachment& stored, const std::uint32_t* words,
+void TileStage::store(const AttachmentOps& ops, Attachment& stored, const std::uint32_t* words,
                       const TilePlace& place) const {
-  if (attachment_ops.store) store_planes_({&words, 1}, place, stored.planes, ~0u);
+  if (ops.stores()) store_planes_({&words, 1}, place, stored.planes, ~0u);
 }
 
 void TileStage::load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const {
-  if (!commands_.accumulation.load) return;
+  if (!commands_.attachments.accumulation.loads()) return;
   for (std::size_t c = 0; c < 4; ++c) {
     auto* const words = reinterpret_cast<std::uint32_t*>(levels[c]);
-    load(commands_.accumulation, target_.accumulation[c], words, place);
+    load(commands_.attachments.accumulation, target_.accumulation[c], words, place);
     const int bits = target_.format.accumulation_bits, pixels = place.tile_size * place.tile_size;
     for (int i = 0; i < pixels; ++i) levels[c][i] = accumulation_level_from_stored(words[i], bits);
   }

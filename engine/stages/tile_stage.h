@@ -69,9 +69,9 @@ class TileStage {
   void render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const;
   void load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const;
   void scan_out(int x0, int y0, TileWorkspace& workspace) const;
-  void load(const AttachmentOps& attachment_ops, const Attachment& stored, std::uint32_t* words,
+  void load(const AttachmentOps& ops, const Attachment& stored, std::uint32_t* words,
             const TilePlace& place) const;
-  void store(const AttachmentOps& attachment_ops, Attachment& stored, const std::uint32_t* words,
+  void store(const AttachmentOps& ops, Attachment& stored, const std::uint32_t* words,
              const TilePlace& place) const;
   void fill_cleared(const TileStrip& strip) const;
   std::uint8_t* target_pixel(int x, int y) const;

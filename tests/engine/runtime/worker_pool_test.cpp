@@ -1,6 +1,7 @@
 // Tasks run once each, on as many workers as were asked for, in the default floating-point mode.
 #include "engine/runtime/worker_pool.h"
 #include "engine/program/threads/thread_limit.h"
+#include "engine/runtime/floating_point_mode.h"
 
 #include <gtest/gtest.h>
 
