@@ -31,7 +31,8 @@ Facing facing_of(const BinDraw& draw, std::size_t begin, std::size_t end) {
     if (draw.any_outcode && (outcodes_of(draw, triangle, false) & kNonFinite) != 0) return Facing::dropped;
     area += visible_area(draw, triangle);
   }
-  return area == 0 || is_front(area, draw.front_is_clockwise) ? Facing::front : Facing::back;
+  if (area == 0) return Facing::edge_on;
+  return is_front(area, draw.front_is_clockwise) ? Facing::front : Facing::back;
 }
 
 }  // namespace
