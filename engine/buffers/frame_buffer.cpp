@@ -166,7 +166,7 @@ void check_format(const FrameBufferFormat& format) {
   require_palette_size(format.palette.size(), format.color_bits);
 }
 
-// The palette as it is stored.
+// Quantizes the palette.
 Palette checked_palette(std::span<const Color> colors, int bits) {
   require_palette_size(colors.size(), bits);
   Palette palette{.bits = bits, .entries = {}};
@@ -291,7 +291,7 @@ const Attachment& require_defined(FrameBufferState& state, Buffer which, const c
   return buffer;
 }
 
-// Calls use(words of a row, y) for every row from the top. Planes are read in bands, tile by tile.
+// Calls use(words of a row, y) for every row from the top. Planes are read in bands of tiles.
 template <class Use>
 void for_each_row(const Attachment& buffer, const char* function, const Use& use) {
   constexpr int kBandRows = 32;
@@ -423,7 +423,7 @@ void FrameBuffer::read_accumulation(std::span<float> rgba) const {
   const FloatingPointMode mode;
   for (std::size_t c = 0; c < 4; ++c)
     for_each_row(state_->accumulation[c], kFunction, [&](std::span<const std::uint32_t> row, std::size_t y) {
-      // The lowest level is a step below -1.
+      // The lowest level lies one step below -1.
       for (std::size_t x = 0; x < row.size(); ++x)
         rgba[4 * (y * row.size() + x) + c] = static_cast<float>(
             std::max(accumulation_level_from_stored(row[x], bits) / accumulation_one(bits), -1.0));

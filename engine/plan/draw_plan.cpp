@@ -67,7 +67,7 @@ const Material& back_material(const DrawState& state) {
   return state.back_material ? *state.back_material : state.material;
 }
 
-/// Whether back faces have a material of their own, and which faces' colours are indices.
+/// Two-sided lighting, and the faces whose colours are indices.
 void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout) {
   const DrawState& state = draw.state;
   if (plan.write_mask == 0) return;
@@ -127,12 +127,12 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& la
   plan.vertex_alpha = tracked.diffuse && !plan.only_indices();
 }
 
-/// The index of a program that no light has a part in.
+/// The index that a program without light terms yields.
 float unlit_index(const LightingProgram& program) {
   return masked_index(std::min(program.indexes[0], program.indexes[2]), program.index_modulus);
 }
 
-/// No light depends on the surface, and both faces look the same.
+/// No light depends on the surface, and both faces have the same colour.
 bool has_constant_color(const DrawPlan& plan) {
   if (!plan.front.terms.empty() || plan.front.tracked || (plan.float_colors && plan.vertex_alpha))
     return false;
@@ -142,14 +142,14 @@ bool has_constant_color(const DrawPlan& plan) {
                              : plan.back.base == plan.front.base && plan.alpha[0] == plan.alpha[1];
 }
 
-/// What is stored depends on what was, or on where it is stored.
+/// The stored value depends on the value before, or on the position of the pixel.
 bool is_order_dependent(const DrawPlan& plan, const ColorLayout& layout) {
   return plan.has_ops &&
          (plan.ops.blend || plan.ops.dither || plan.ops.logic != LogicOp::copy || layout.alpha_bits > 0);
 }
 
-/// What an alpha test looks at in a draw that stores no colour: a lit point has its diffuse colour's alpha,
-/// so no light is needed.
+/// Alpha for the alpha test of a draw that stores no colour. Lighting takes alpha from the diffuse colour, so
+/// no light is evaluated.
 void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
   const DrawState& state = draw.state;
   plan.vertex_alpha = plan.uses_vertex_colors =
@@ -166,8 +166,7 @@ void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
   plan.scaled_colors = false;
 }
 
-/// One colour for the draw, and the texture, if any, over it: at the pixels, or once for all where it has one
-/// colour itself.
+/// One colour for the draw. Texels are applied at the pixels; a texture of one colour is folded in here.
 void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& layout) {
   plan.constant_color = {clamp_unit(color[0]), clamp_unit(color[1]), clamp_unit(color[2])};
   if (plan.is_index[0] || plan.texture.use == TexturePlan::Use::none) return;
@@ -185,8 +184,8 @@ void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& lay
   plan.alpha[0] = plan.alpha[1] = a;
 }
 
-/// Whether the texture has to wait for the pixels, with colours that are made at the vertices, or at the
-/// pixels themselves.
+/// Decides whether the texture is applied per pixel.
+/// @param at_vertices  colours are computed at the vertices, and interpolated without extrapolation
 void plan_texturing(DrawPlan& plan, bool at_vertices) {
   plan.textures_per_pixel =
       plan.texture.use != TexturePlan::Use::none && !(at_vertices && plan.texture.is_affine());
@@ -239,11 +238,10 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan_texturing(plan, false);
     plan.smooth_normals = generate;
     notes.active(Effect::shading, plan.deferred ? EffectReason::per_pixel : EffectReason::per_fragment);
-  } else if (state.shading == Shading::flat ||
-             plan.topology == Topology::points) {  // a point has one colour in any case
+  } else if (state.shading == Shading::flat || plan.topology == Topology::points) {  // points have one colour
     plan.face_normals = generate && has_faces;
     plan.smooth_normals = generate && !has_faces;
-    // Words have no room for texels: as floats, like colours that have operations to go through.
+    // Packed colors cannot be textured: colours are kept as floats, as for fragment operations.
     if (plan.texture.use == TexturePlan::Use::texels)
       plan.has_ops = plan.float_colors = plan.textures_per_pixel = true;
     const bool by_triangle = plan.face_normals || plan.provoking_vertex_elsewhere;
@@ -261,11 +259,11 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   } else {
     plan.source = ColorSource::interpolated;
     plan.smooth_normals = generate;
-    plan_texturing(plan, has_faces && !sampled && !plan.outlines);  // elsewhere colours may be extrapolated
+    plan_texturing(plan, has_faces && !sampled && !plan.outlines);  // otherwise colours may be extrapolated
     plan.scaled_colors = !layout.index && !layout.luminance && !plan.float_colors && !sampled && has_faces &&
                          !plan.textures_per_pixel;
-    // Greys and palette entries are not linear in the colour: shade what is seen. So where samples share a
-    // colour that is not just stored.
+    // Greys and palette entries are not linear in the colour: evaluate them per visible pixel. The same
+    // applies if samples share a colour that is not merely stored.
     const bool shades_visible = layout.index || layout.luminance || plan.textures_per_pixel ||
                                 (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));
     plan.deferred = shades_visible && !is_order_dependent(plan, layout);
@@ -290,7 +288,7 @@ void note_depth(const DrawPlan& plan, const DrawState& state, const FrameBufferS
   else notes.skipped(Effect::depth_write, EffectReason::disabled);
 }
 
-// Points, lines or polygons, which sides of these are seen, and in which style.
+// Topology, culling, polygon modes and sizes.
 void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
   const DrawState& state = draw.state;
   plan.topology = draw.mesh.topology();
@@ -298,7 +296,7 @@ void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
   plan.point_size = state.point_size;
   plan.line_width = state.line_width;
   plan.keep_front =
-      state.cull != Cull::front || !has_faces;  // points and lines are fronts, and nothing culls them
+      state.cull != Cull::front || !has_faces;  // points and lines are front-facing and never culled
   plan.keep_back = state.cull != Cull::back && has_faces;
   const PolygonMode modes[2] = {plan.keep_front ? state.front_mode : state.back_mode,
                                 plan.keep_back ? state.back_mode : state.front_mode};
@@ -314,7 +312,7 @@ void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
 }  // namespace
 
 PixelRect raster_rect(const Rect& rect, int frame_height) {
-  // In 64 bits: a rectangle may be anywhere.
+  // In 64 bits: x and y may be any int.
   const auto clamp = [](std::int64_t v) {
     return static_cast<int>(std::clamp<std::int64_t>(v, -(1 << 28), 1 << 28));
   };
@@ -334,9 +332,8 @@ std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t pl
   if (color_mask[3]) mask |= layout.alpha_mask();
   mask &= plane_mask;
   if (mask == 0) return 0;
-  return mask == (layout.value_mask() | layout.alpha_mask())
-             ? 0xffffffffu
-             : mask;  // bits beyond the planes are nobody's: a full mask needs no reading
+  // Bits above the planes do not exist; a mask of all 32 bits saves reading the stored word.
+  return mask == (layout.value_mask() | layout.alpha_mask()) ? 0xffffffffu : mask;
 }
 
 void DrawPlan::reset() {
@@ -368,7 +365,6 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
   const bool has_depth = state.depth.enabled && target.depth_format != DepthFormat::none;
   plan.depth_test = state.depth.test;
   plan.depth_write = state.depth.write;
-  // A test that always passes and writes nothing is no test.
   plan.uses_depth = has_depth && !(state.depth.test == Compare::always && !state.depth.write);
   note_depth(plan, state, target, notes);
   if (plan.write_mask != 0 && plan.write_mask != 0xffffffffu) notes.active(Effect::plane_masks);

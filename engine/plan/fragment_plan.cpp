@@ -27,7 +27,7 @@ void plan_stencil(FragmentPlan& plan, const StencilState& state, int bits) {
   ops.stencil = plan.uses_stencil = !does_nothing(ops.faces[0]) || !does_nothing(ops.faces[1]);
 }
 
-// Takes the source as it is.
+// The blend yields the source colour.
 bool is_replacing(const FragmentOps& ops) {
   return ops.src_color == BlendFactor::one && ops.src_alpha == BlendFactor::one &&
          ops.dst_color == BlendFactor::zero && ops.dst_alpha == BlendFactor::zero &&
@@ -44,17 +44,21 @@ void plan_blend(FragmentOps& ops, const BlendState& state) {
   ops.blend = !is_replacing(ops);
 }
 
+int pattern_size(Dither dither) {
+  switch (dither) {
+    case Dither::none: return 1;
+    case Dither::bayer2: return 2;
+    case Dither::bayer4: return 4;
+    case Dither::bayer8: return 8;
+  }
+  return 8;
+}
+
 }  // namespace
 
 FragmentOps dither_ops(const FrameBufferState& target) {
   FragmentOps ops;
-  const Dither dither = target.format.dither;
-  set_dither(ops,
-             dither == Dither::none     ? 1
-             : dither == Dither::bayer2 ? 2
-             : dither == Dither::bayer4 ? 4
-                                        : 8,
-             target.format.height);
+  set_dither(ops, pattern_size(target.format.dither), target.format.height);
   if (target.layout.index)
     ops.palette_spread = static_cast<float>(
         1 / std::fmax(1.0, std::cbrt(static_cast<double>(target.palette.entries.size())) - 1));

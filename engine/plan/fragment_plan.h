@@ -1,4 +1,4 @@
-// Which operations the fragments of a draw need: what changes nothing is left out.
+// Fragment operations of a draw. Operations without effect are left out.
 #pragma once
 
 #include "engine/buffers/frame_buffer_state.h"
@@ -9,16 +9,16 @@ namespace tessera::detail {
 
 struct FragmentPlan {
   FragmentOps ops;
-  bool needed = false;           ///< else fragments go by the short way
-  bool is_stencil_only = false;  ///< and nothing else
+  bool needed = false;           ///< false: fragments only have a depth test
+  bool is_stencil_only = false;  ///< `ops` is a stencil test and nothing else
   bool uses_stencil = false;
 };
 
-/// The dither of a buffer, and nothing else.
+/// Operations that dither for a buffer, and do nothing else.
 FragmentOps dither_ops(const FrameBufferState& target);
 
-/// @param writes_color  some colour plane may change
-/// @param only_indices  what is written are indices, which nothing dithers
+/// @param writes_color  a colour plane may change
+/// @param only_indices  colour indices are stored, which are not dithered
 /// @param notes  receives the operations
 FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color,
                             bool only_indices, const EffectNotes& notes);

@@ -1,13 +1,13 @@
-// The part of a draw's plan that is a bitmap's or an image's own.
+// Plans of bitmaps and images.
 #pragma once
 
 #include "engine/plan/draw_plan.h"
 
 namespace tessera::detail {
 
-/// Where it goes, and at which depth.
+/// Plans the pixels and the depth.
 void plan_pixel_places(DrawPlan& plan, const RecordedPixels& pixels, const FrameBufferState& target);
-/// @pre the plan has its operations
+/// Plans the colours. @pre the fragment operations are planned
 /// @param notes  receives the source of the colours
 void plan_pixel_colors(DrawPlan& plan, const RecordedPixels& pixels, const EffectNotes& notes);
 

@@ -5,7 +5,7 @@
 namespace tessera::detail {
 namespace {
 
-// One texel everywhere leaves all that is needed of every colour as it is.
+// A texture of one colour leaves the components that matter unchanged.
 bool changes_nothing(const DrawTexture& texture, bool color_matters, bool alpha_matters) {
   const auto [r, g, b, a] = texture.texel;
   const bool white = r == 1 && g == 1 && b == 1, black = r == 0 && g == 0 && b == 0;

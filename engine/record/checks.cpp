@@ -45,7 +45,7 @@ void check_rect(const FieldName& name, const Rect& rect) {
 
 void throw_invalid_enum(const FieldName& name, unsigned value, unsigned last) {
   throw Error(ErrorCode::invalid_argument, name.text() + " is " + std::to_string(value) +
-                                               ", which stands for nothing, must be 0 to " +
+                                               ", not a valid enumerator; must be 0 to " +
                                                std::to_string(last));
 }
 

@@ -1,4 +1,4 @@
-// Recording: everything is checked here, before a pixel is touched.
+// Recording of frames. All arguments are checked here.
 #include "engine/tessera/tessera.hpp"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ void check_size(const char* name, float size) {
                                                format_number(size) + ", must be a finite number above 0");
 }
 
-// Of points, lines and outlines, and where polygons lie in depth.
+// Sizes of points and lines, and polygon offset.
 void check_shape(const DrawState& s, const FrameBufferState& target) {
   check_size("point_size", s.point_size);
   check_size("line_width", s.line_width);
@@ -123,7 +123,6 @@ Frame::~Frame() = default;
 Frame::Frame(Frame&&) noexcept = default;
 Frame& Frame::operator=(Frame&&) noexcept = default;
 
-// Comparisons and products, too, belong in a mode of our own: in the caller's a NaN may be a trap.
 void Frame::set_camera(const Camera& camera) {
   const FloatingPointMode mode;
   require_finite({"Frame::set_camera: view"}, camera.view);

@@ -1,4 +1,4 @@
-// Recording of bitmaps and images: checked here, before a pixel is touched.
+// Recording of bitmaps and images. All arguments are checked here.
 #include <cmath>
 #include <string>
 
@@ -12,7 +12,7 @@ namespace tessera {
 using namespace detail;
 namespace {
 
-// What bitmaps and images have in common. `row_bytes` are those that a row needs.
+// Checks common to bitmaps and images. @param row_bytes  minimum size of a row
 void check_pixels(const char* function, RecordedPixels& pixels, const char* memory, std::int64_t row_bytes) {
   PixelRectangle& texels = pixels.rectangle;
   require_range({function, ": width"}, texels.width, 1, kMaxFrameBufferSize);

@@ -1,5 +1,4 @@
-// Matrices and projections of the public interface. The same bits in whatever floating-point mode the caller
-// is.
+// Matrices and projections of the public API. The results do not depend on the caller's floating-point mode.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -123,7 +122,7 @@ void require_positive_depths(const char* function, double near, double far) {
                                                  ", both must be above 0");
 }
 
-// Finite numbers can be so far apart, or so near, that the matrix is not.
+// Finite arguments may yield a matrix that is not finite.
 Matrix finite(const char* function, const Matrix& matrix) {
   for (const double element : matrix.m)
     if (!std::isfinite(element))
@@ -189,8 +188,8 @@ Matrix orthographic(double left, double right, double bottom, double top, double
                                   0, 0, 0, 1}});
 }
 
-// x/z of OpenCV's axes is x/w here; pixel coordinates count from the first pixel's centre, the window's from
-// its corner.
+// x/z in OpenCV's axes is x/w in clip space. Pixel coordinates start at the centre of the first pixel, window
+// coordinates at its corner.
 Camera calibrated_camera(const Intrinsics& i, const Matrix& camera_from_world, double near, double far,
                          CameraAxes axes, bool reversed) {
   const FloatingPointMode mode;

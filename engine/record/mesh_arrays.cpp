@@ -13,9 +13,9 @@
 namespace tessera::detail {
 namespace {
 
-constexpr std::size_t kIndicesPerTask = 4096,
-                      kMinIndicesForWorkers =
-                          65536;  // fewer than many are looked through before others could have begun
+constexpr std::size_t kIndicesPerTask = 4096;
+// Fewer indices are validated before other workers could have started.
+constexpr std::size_t kMinIndicesForWorkers = 65536;
 
 [[noreturn]] void fail(const std::string& message) {
   throw Error(ErrorCode::invalid_argument, "Frame::draw: the mesh " + message);
@@ -29,7 +29,7 @@ void require_one_form(const char* what, std::size_t packed, const char* unit, st
          " bytes, must have one or the other");
 }
 
-// Packed arrays have floats, or vertices as those with a stride do.
+// An array is packed (number of floats) or strided (number of vertices), not both.
 std::size_t vertices_of(const FloatArray& positions, std::size_t components) {
   require_one_form("positions", positions.float_count, "floats", positions.vertices, positions.stride_bytes);
   if (positions.float_count == 0) return positions.vertices;

@@ -19,12 +19,12 @@ std::string list_of(const std::array<double, 4>& v, int count) {
   return list;
 }
 
-// With a light l (homogeneous) and the plane p, M = (p.l) I - l p^T takes a point x to where the line from l
-// through x meets the plane, and its w to (p.l) x.w - (p.x) l.w. Between the plane, where p.x is 0, and the
-// light, where p.x is p.l, that has the sign of p.l: divided by p.l it is above 0 there, as clipping wants
-// it, whichever way the plane's normal points, and 1 in the plane itself.
+// For a homogeneous light l and a plane p, M = (p.l) I - l p^T maps a point x to the intersection of the
+// plane with the line from l through x, and w to (p.l) x.w - (p.x) l.w. Between the plane (p.x = 0) and the
+// light (p.x = p.l) that has the sign of p.l. Divided by p.l, w is positive there, as clipping requires, for
+// either direction of the normal, and 1 in the plane.
 Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, const Light& light) {
-  constexpr double kRounding = 0x1p-22;  // of the terms of p.l, since lights stand in floats
+  constexpr double kRounding = 0x1p-22;  // relative to the terms of p.l: lights are stored as floats
   require_finite({owner, "'s plane"}, {plane[0], plane[1], plane[2], plane[3]});
   require_finite({owner, "'s light's position"},
                  {light.position[0], light.position[1], light.position[2], light.position[3]});
@@ -32,7 +32,8 @@ Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, cons
   if (!(largest > 0))
     throw Error(ErrorCode::invalid_argument, std::string(owner) + ": the plane is " + list_of(plane, 4) +
                                                  ", its normal must not be 0 0 0");
-  // A power of two keeps sums of products within a double's range and changes no bit of what follows.
+  // Scaling by a power of two keeps sums of products within the range of doubles and changes no bit of the
+  // result.
   const int exponent = std::ilogb(std::max(largest, std::abs(plane[3])));
   std::array<double, 4> p, l;
   double product = 0, terms = 0;

@@ -1,4 +1,4 @@
-// Making textures: checks, texels as words, mipmaps, and what the whole of a texture amounts to.
+// Construction of textures: checks, texels as words, mipmaps, textures of one colour.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -79,7 +79,7 @@ bool has_mipmaps(const TextureSampler& sampler) {
   return sampler.min != TextureFilter::nearest && sampler.min != TextureFilter::linear;
 }
 
-// Sizes, and where each level lies. Returns the number of words.
+// Size and offset of each level. Returns the number of words.
 std::size_t lay_out_levels(TextureLevels& levels, const TextureImage& image, bool mipmaps) {
   levels.level[0] = {0, image.width, image.height};
   std::int64_t words = levels.level[0].words();
@@ -104,8 +104,8 @@ void fill_from(const TextureImage& image, std::uint32_t* words, const TextureLev
   }
 }
 
-// What stands behind the last texel and the last row is what follows them. Where nothing follows, it has no
-// weight.
+// Fills the padding after the last texel and the last row with the texels that follow under the wrap mode. If
+// none follow, the padding has weight 0.
 void pad_level(std::uint32_t* words, const TextureLevel& level, const TextureLevels& of) {
   std::uint32_t* const first = words + level.first;
   for (std::int32_t y = 0; y < level.height; ++y) {
@@ -135,8 +135,8 @@ bool is_one_color(const TextureState& texture) {
   return true;
 }
 
-// Magnified: with a linear filter the mean of the texels around the image's corner, exactly as the kernel has
-// it.
+// Magnification: a linear filter yields the mean of the texels around the corner of the image, as in the
+// kernel.
 std::array<float, 4> color_at_origin(const TextureState& texture) {
   const TextureLevels& levels = texture.levels;
   const TextureLevel& level = levels.level[0];

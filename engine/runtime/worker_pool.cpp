@@ -23,8 +23,8 @@ namespace tbb = oneapi::tbb;
 
 namespace {
 
-/// oneTBB's threads, in an arena of their own, where progress callbacks may work, too. Two keep their numbers
-/// from call to call; which of more takes which is chance.
+/// Threads of oneTBB in a separate arena, so that progress callbacks may use oneTBB, too. Two threads keep
+/// their worker numbers from call to call; with more the assignment varies.
 class ArenaExecutor : public Executor {
  public:
   explicit ArenaExecutor(int threads) : threads_(threads), arena_(threads) {}
@@ -51,8 +51,7 @@ class SerialExecutor : public Executor {
   }
 };
 
-/// Where a task that would run as number i runs in another order: i step + order modulo count, for a step
-/// that meets them all.
+/// Permutation of tasks: task number i becomes (i * step + order) mod count, with step coprime to count.
 class TaskOrder {
  public:
   TaskOrder(std::uint32_t order, std::size_t count) : order_(order), count_(count) {
@@ -89,7 +88,7 @@ struct WorkerPool::Dispatch {
   std::atomic<std::size_t> done{0};
   std::atomic<bool> failed{false};
   std::exception_ptr failure{};
-  std::atomic<int> invalid_worker{0};  // a worker that nobody asked for; 0: none
+  std::atomic<int> invalid_worker{0};  // a worker out of range that the executor passed; 0: none
 
   static void work(void* dispatch, int worker) noexcept { static_cast<Dispatch*>(dispatch)->run(worker); }
   void run(int worker) noexcept {
@@ -111,7 +110,7 @@ struct WorkerPool::Dispatch {
   /// @return  tasks that this worker ran
   std::size_t run_share(Share& share, int worker) noexcept {
     std::size_t ran = 0;
-    // It looks before it takes: looking leaves the line in the caches of all who look.
+    // Load before the read-modify-write: a load leaves the cache line shared.
     while (share.next.load(std::memory_order_relaxed) < share.end &&
            !failed.load(std::memory_order_relaxed)) {
       const std::size_t i = share.next.fetch_add(1, std::memory_order_relaxed);
@@ -134,7 +133,7 @@ WorkerPool::WorkerPool(int threads, std::shared_ptr<Executor> executor, std::uin
   if (executor_) {
     threads_ = std::clamp(threads, 1, std::max(1, executor_->workers()));
   } else {
-    // An arena above the process's limit would make oneTBB print a warning and not run more threads anyway.
+    // An arena above the process's limit runs no more threads, and makes oneTBB print a warning.
     const auto limit =
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     threads_ = std::clamp(threads, 1, std::max(1, limit));
@@ -150,8 +149,8 @@ void WorkerPool::run(std::size_t count, const TaskRef& task) {
   if (count == 0) return;
   const TaskOrder order(order_, count);
   if (is_running_) {
-    // A task's call: the others are busy with the outer one. Who waited for them here might wait for one who
-    // waits for this task.
+    // Nested call: run serially on this thread. The other workers belong to the outer call; waiting for them
+    // could deadlock.
     const FloatingPointMode mode;
     for (std::size_t i = 0; i < count; ++i) task.call(task.self, order(i), 0);
     return;

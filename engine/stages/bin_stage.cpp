@@ -10,9 +10,8 @@ namespace tessera::detail {
 namespace {
 
 constexpr std::size_t kTrianglesPerBatch = 1024;
-/// In the bins of a single tile a triangle takes less than this: its entry, and the pieces that clipping
-/// makes of it, in lists that double. (Of a polygon whose outline is drawn it is one of many that stay
-/// together.)
+/// Upper bound of a triangle's memory in the bins of a single tile: its entry and its clipped pieces, in
+/// lists that grow by doubling. Triangles of an outlined polygon share their entries.
 constexpr std::size_t kMaxBytesPerTriangle = 8192;
 
 void bin_elements(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
@@ -107,8 +106,7 @@ bool BinStage::fill(const TileRange& tiles, FrameProgress& progress) {
   const PixelRect pixels{tiles.x0 * grid_.tile_size, tiles.y0 * grid_.tile_size, tiles.x1 * grid_.tile_size,
                          tiles.y1 * grid_.tile_size};
   for (std::size_t d = 0; d < draws_.size(); ++d) draws_[d].rect = intersect(draw_rects_[d], pixels);
-  // One core does this alone. Unless the last fill was complete and fitted, it looks at one batch after the
-  // other.
+  // Serial: visits every batch, unless the last fill was complete and fitted.
   if (!budget_is_exact_) start_budget();
   budget_is_exact_ = false;
   worker_counts_.assign(static_cast<std::size_t>(worker_pool_.threads()), {});
@@ -127,7 +125,7 @@ bool BinStage::fill(const TileRange& tiles, FrameProgress& progress) {
     batches_.set({bins_.data(), batch_count_}, tiles.count(), tiles.first(grid_));
     return true;
   }
-  // Memory that went to batches as this range or earlier frames needed it may be wanted by others now.
+  // Release the memory: the next ranges may need it for other batches.
   for (Bins& bins : bins_) bins = Bins();
   if (tiles.count() > 1) return false;
   fill_one_by_one(tiles);

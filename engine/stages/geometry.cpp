@@ -23,8 +23,7 @@ void load_vertex_colors(const MeshArrays& mesh, ShadingBatch& batch, std::size_t
     for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexR + c][i] = mesh.color(vertex(i), c);
 }
 
-// A vertex whose normal, colour, index or texture coordinate is not finite is dropped like one whose position
-// is not.
+// Marks vertices with a value that is not finite: their primitives are dropped, as for positions.
 std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t count,
                              std::uint8_t* outcodes) {
   std::uint8_t any = 0;
@@ -42,14 +41,14 @@ std::uint32_t packed_color_of(const GeometryDraw& draw, const ShadingBatch& batc
                              batch.field[kColorG][i], batch.field[kColorB][i]);
 }
 
-// Unlit: the vertex colours themselves, clamped as every colour is after the vertex stage.
+// Unlit: vertex colours, clamped like every result of the vertex stage.
 void copy_vertex_colors(ShadingBatch& batch, std::size_t count) {
   for (int c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < count; ++i)
       batch.field[kColorR + c][i] = std::min(std::max(batch.field[kVertexR + c][i], 0.0f), 1.0f);
 }
 
-// Unlit: the vertices' indices, masked as those are that come out of lighting.
+// Unlit: colour indices of the vertices, masked like results of index lighting.
 template <class VertexOf>
 void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size_t count,
                         const VertexOf& vertex) {
@@ -58,11 +57,11 @@ void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size
         masked_index(*draw.mesh->color_indices.at(vertex(i)), draw.layout->index_modulus());
 }
 
-// Where the colours of a batch go, and whose alpha they have.
+// Points that are shaded together.
 struct Batch {
   std::size_t first, count;
-  bool triangles;             ///< else vertices
-  float alpha[kBatchPoints];  ///< the vertices', where the draw uses them
+  bool triangles;             ///< triangles; false: vertices
+  float alpha[kBatchPoints];  ///< of the vertices; if DrawPlan::vertex_alpha
 };
 
 std::size_t varying_stride(const DrawPlan& plan) { return static_cast<std::size_t>(plan.varyings.count); }
@@ -72,7 +71,7 @@ float* varying(const GeometryDraw& draw, std::size_t vertex, int offset) {
   return draw.buffers->attributes.data() + vertex * varying_stride(*draw.plan) + offset;
 }
 
-// Where the colours of one face of a batch go as floats, and how far one is from the next.
+// Float colours of one face of a batch: first colour, and distance between colours in floats.
 struct ColorOutput {
   float* first;
   std::size_t stride;
@@ -88,7 +87,7 @@ void store_indices(const GeometryDraw& draw, const ShadingBatch& batch, const Ba
   for (std::size_t i = 0; i < points.count; ++i) out[i * stride] = batch.field[kColorR][i];
 }
 
-// For operations that take colours: r g b a for each point.
+// Colours for fragment operations: r g b a per point.
 void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
   const DrawPlan& plan = *draw.plan;
   auto [out, stride] = color_output(draw, points, face);
@@ -102,7 +101,7 @@ void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch
   }
 }
 
-// A texture of one colour over colours that are clamped.
+// Applies a texture of one colour to clamped colours.
 void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto color = texture_env_reference(
@@ -112,7 +111,7 @@ void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t c
   }
 }
 
-// The colour of a batch goes where the draw's triangles will look for it.
+// Stores the colours of a batch in the form that the tiles read.
 void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, int face,
                   InstructionSet isa) {
   const DrawPlan& plan = *draw.plan;
@@ -140,7 +139,7 @@ void light_batch(const GeometryDraw& draw, const LightingProgram& program, Shadi
   store_colors(draw, batch, points, face, isa);
 }
 
-// Everything about the colour of one batch of vertices or faces whose inputs stand in the batch.
+// Lights, textures and stores the colours of a batch whose inputs are loaded.
 void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, InstructionSet isa) {
   const DrawPlan& plan = *draw.plan;
   if (!plan.lit) {
@@ -149,7 +148,7 @@ void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, const Batch& poi
     return;
   }
   if (plan.two_sided) {
-    ShadingBatch back = batch;  // preparing a batch turns its normals
+    ShadingBatch back = batch;  // lighting modifies the normals of its batch
     light_batch(draw, plan.back, back, points, 1, isa);
   }
   light_batch(draw, plan.front, batch, points, 0, isa);
@@ -164,7 +163,7 @@ Batch batch_of(const GeometryDraw& draw, std::size_t first, std::size_t count, b
   return points;
 }
 
-// Per-pixel lighting: the vertex stage only carries its inputs into eye space.
+// Per-pixel lighting: stores its inputs in eye space.
 void store_lighting_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t first,
                            std::size_t count) {
   const VaryingLayout& layout = draw.plan->varyings;
@@ -182,7 +181,7 @@ void store_lighting_inputs(const GeometryDraw& draw, const ShadingBatch& batch, 
   if (layout.alpha[0] < 0) return;
   float* const alpha = varying(draw, first, layout.alpha[0]);
   for (std::size_t i = 0; i < count; ++i)
-    alpha[i * stride] = draw.mesh->color(first + i, 3);  // clamped at the pixel, as the colour
+    alpha[i * stride] = draw.mesh->color(first + i, 3);  // clamped at the pixel, like the colour
 }
 
 void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t count) {
@@ -192,7 +191,7 @@ void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t co
     std::copy_n(draw.mesh->texcoords.at(first + i), 2, out);
 }
 
-// What a capture wants: eye-space normals, whatever the shading does with them.
+// Eye-space normals for captures, independent of shading.
 void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::size_t count,
                             InstructionSet isa) {
   const StridedFloats normals =
@@ -203,12 +202,11 @@ void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::si
   float* out = varying(draw, first, draw.plan->varyings.captured_normal);
   for (std::size_t i = 0; i < count; ++i, out += stride) {
     const bool is_finite = std::isfinite(eye[0][i]) && std::isfinite(eye[1][i]) && std::isfinite(eye[2][i]);
-    for (std::size_t c = 0; c < 3; ++c)
-      out[c] = is_finite ? eye[c][i] : 0;  // a capture drops nothing of the picture
+    for (std::size_t c = 0; c < 3; ++c) out[c] = is_finite ? eye[c][i] : 0;  // a capture drops no primitive
   }
 }
 
-// The corners of each element, its provoking vertex where provoking_place() says.
+// Corners of each element, with its provoking vertex at provoking_place().
 void list_corners(const GeometryDraw& draw, std::size_t first, std::size_t last) {
   const MeshArrays& mesh = *draw.mesh;
   const auto each = static_cast<std::size_t>(mesh.topology());
@@ -219,8 +217,8 @@ void list_corners(const GeometryDraw& draw, std::size_t first, std::size_t last)
   }
 }
 
-// Around the first triangle, with what each further one adds before its end. From the same vertex on under
-// both conventions.
+// Boundary of each polygon: the corners of its first triangle, then the corner that each further triangle
+// adds. The start does not depend on the provoking vertex.
 void list_boundaries(const GeometryDraw& draw, std::size_t first, std::size_t last) {
   const MeshArrays& mesh = *draw.mesh;
   const std::size_t each = mesh.triangles_per_polygon(), first_polygon = (first + each - 1) / each;

@@ -19,8 +19,7 @@ bool covers_frame(const TileClear& clear, const TileGrid& grid) {
 
 constexpr std::size_t kLoadClasses = 4 * 64;
 static_assert(kLoadClasses - 1 <= std::numeric_limits<std::uint8_t>::max());
-/// Four classes for each power of two: loads of one class differ by less than a quarter, and a greater load
-/// is never of a lower class.
+/// Four classes per power of two: loads of one class differ by less than 25 %. Monotonic.
 std::uint8_t load_class_of(std::uint64_t triangles) {
   if (triangles < 8) return static_cast<std::uint8_t>(triangles);
   const int highest_bit = std::bit_width(triangles) - 1;
@@ -28,14 +27,12 @@ std::uint8_t load_class_of(std::uint64_t triangles) {
                                    static_cast<int>(triangles >> (highest_bit - 2) & 3));
 }
 
-/// Deals strips of one load_class, `sorted` ones from `begin` to before `end`. Place p in the order of
-/// weights belongs to share p % shares, as its number p / shares, so that each share has as many of every
-/// load_class, or one more, and weights do not rise in it. Which strips of the load_class take a share's
-/// places is free: it is neighbours.
+/// Distributes the strips of one load class, sorted[begin, end), over the shares. Place p in the order of
+/// loads is place p / shares of share p % shares: shares have equal numbers of every class, up to one, and
+/// loads do not increase within a share. Neighbouring strips go to the same share.
 void distribute(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t end, std::size_t shares,
                 std::vector<TileStrip>& distributed) {
-  // Where there are fewer strips than shares, only begin % shares and those that follow it have a place among
-  // these.
+  // With fewer strips than shares, only the shares from begin % shares on receive one.
   const std::size_t served = std::min(end - begin, shares),
                     first_share = served < shares ? begin % shares : 0;
   for (std::size_t k = 0, next = begin; k < served; ++k) {
@@ -67,8 +64,8 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
   const PixelOrder order = image->order == PixelOrder::rgba8 ? PixelOrder::rgba8 : PixelOrder::bgra8;
   if (scan_out_cache.scan_out) scan_out_cache.scan_out->set(target.layout, palette, order);
   else scan_out_cache.scan_out.emplace(target.layout, palette, order, isa);
-  // Where the picture is all that is wanted, and starts from a clear of all of it, a tile without triangles
-  // need not go through tile memory.
+  // If only the picture is needed and the frame starts with a clear of all of it, tiles without triangles
+  // bypass tile memory.
   copies_cleared_row_ =
       !capture.any() && !commands.attachments.any_stores() && !commands.attachments.color.loads() &&
       !commands.clears.empty() && commands.accumulations.empty() &&
@@ -91,10 +88,10 @@ void TileStage::build_strips(const TileRange& tiles, const WorkerPool& workers, 
   const auto is_cleared = [&](int row, int column) {
     return copies_cleared_row_ && batches.known_empty(row * grid.columns() + column);
   };
-  // Tiles that share a cache line of a plane belong to one worker.
+  // Tiles that share a cache line of a plane go to one worker.
   const int length = commands_.attachments.any_stores() ? kLinePixels / grid.tile_size : 1;
   std::array<std::uint32_t, kLoadClasses>
-      next{};  // how many strips have a load_class, then where the next one of them goes
+      next{};  // per class: number of strips, then place of its next strip
   memory.strips.clear();
   for (int row = tiles.y0; row < tiles.y1; ++row) {
     for (int column = tiles.x0, end; column < tiles.x1; column = end) {
@@ -177,7 +174,7 @@ void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
                                    image_->stride_bytes);
     return;
   }
-  // The image's edge runs through the tile: by way of a picture of the whole tile.
+  // The edge of the region crosses the tile: convert the whole tile, then copy the part inside.
   std::uint8_t pixels[4 * kMaxTileSize * kMaxTileSize];
   scan_out_cache_.scan_out->tile(workspace.color(), size, width, height, pixels, std::ptrdiff_t{4} * size);
   for (int y = region.y0; y < region.y1; ++y)
