@@ -86,7 +86,7 @@ void for_each_command(const FrameCommands& commands, const OnClear& on_clear,
   }
 }
 
-/// What the commands of a frame do to one buffer.
+/// Effect of the commands of a frame on one buffer.
 struct BufferHistory {
   bool starts_overwritten = false;  ///< the first command replaces the whole buffer
   bool clears_are_whole = true;

@@ -19,7 +19,7 @@ struct DrawPlan {
   // Geometry.
   VertexTransform transform;
   EyeTransform eye;
-  EyeTransform captured_eye;  ///< of captured normals, whose length does not matter
+  EyeTransform captured_eye;  ///< for captured normals, whose length does not matter
   Topology topology = Topology::triangles;
   float point_size = 1;       ///< pixels
   float line_width = 1;       ///< pixels
@@ -32,7 +32,7 @@ struct DrawPlan {
   bool is_noop = false;  ///< no buffer can change
 
   std::optional<PixelRectangle> pixel_rectangle;  ///< a bitmap or an image in place of a mesh
-  std::int32_t depth_key = 0;                     ///< of its pixels
+  std::int32_t depth_key = 0;                     ///< depth of its pixels
 
   // Pixels.
   ColorSource source = ColorSource::constant;

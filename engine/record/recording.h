@@ -50,7 +50,7 @@ struct RecordedAccum {
 
 struct FrameRecording {
   FrameBufferState* target = nullptr;
-  WorkerPool* workers = nullptr;  ///< of the renderer that helps to validate; may be null
+  WorkerPool* workers = nullptr;  ///< workers of the renderer that helps to validate; may be null
   std::vector<RecordedDraw> draws;
   std::vector<RecordedClear> clears;
   std::vector<RecordedAccum> accumulations;

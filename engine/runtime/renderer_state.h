@@ -39,14 +39,14 @@ struct RendererState {
   WorkerPool worker_pool;
   FrameCommands commands;
   std::deque<DrawBuffers> draw_buffers;
-  DrawRanges ranges;  ///< of the geometry pass that runs
+  DrawRanges ranges;  ///< tasks of the running geometry pass
   NormalStage normal_stage;
   BinStage bin_stage;
   std::vector<TileRange> pending_ranges;  ///< parts still to be rendered, the next one last
   StripScratch strip_scratch;
   ScanOutCache scan_out_cache;
   std::vector<TileWorkspace> workspaces;                       ///< per worker
-  std::optional<WorkspaceRequirements> prepared_requirements;  ///< of all workspaces, which may have more
+  std::optional<WorkspaceRequirements> prepared_requirements;  ///< minimum over all workspaces
   std::vector<WorkerCounts> worker_counts;                     ///< per worker
 
   RendererState(RendererOptions o, InstructionSet i)

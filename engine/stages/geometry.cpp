@@ -61,7 +61,7 @@ void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size
 struct Batch {
   std::size_t first, count;
   bool triangles;             ///< triangles; false: vertices
-  float alpha[kBatchPoints];  ///< of the vertices; if DrawPlan::vertex_alpha
+  float alpha[kBatchPoints];  ///< alpha of vertices, if DrawPlan::vertex_alpha
 };
 
 std::size_t varying_stride(const DrawPlan& plan) { return static_cast<std::size_t>(plan.varyings.count); }

@@ -83,7 +83,7 @@ class TESSERA_API Frame {
   /// @param draw_index  from 0; bitmaps and images count as draws
   /// @throws Error  if the frame has no such draw
   std::vector<EffectNote> effects(std::size_t draw_index) const;
-  /// The same as text, one line per effect. Wording may change between versions; programs use effects().
+  /// The text of effects(), one line per effect. Wording may change between versions; programs use effects().
   std::string explain(std::size_t draw_index) const;
   std::size_t draw_count() const noexcept;
 

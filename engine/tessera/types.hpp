@@ -100,7 +100,7 @@ TESSERA_API Matrix scale(double x, double y, double z);
 /// Rotation about the axis x, y, z, counter-clockwise for a viewer that the axis points at.
 /// @throws Error  if the axis has length 0, or a value is not finite
 TESSERA_API Matrix rotate(double degrees, double x, double y, double z);
-/// World to eye. The camera at `eye` looks at `target`; `up` appears upwards.
+/// World to eye. The camera is at `eye` and faces `target`; `up` appears upwards.
 /// @throws Error  if eye equals target, or up is parallel to the view direction
 TESSERA_API Matrix look_at(Vec3 eye, Vec3 target, Vec3 up);
 
