@@ -34,7 +34,8 @@ Facing facing_of(const BinDraw& draw, std::size_t begin, std::size_t end) {
       return Facing::dropped;
     area += visible_area(draw, triangle);
   }
-  return area == 0 || is_front(area, draw.front_is_clockwise) ? Facing::front : Facing::back;
+  if (area == 0) return Facing::edge_on;
+  return is_front(area, draw.front_is_clockwise) ? Facing::front : Facing::back;
 }
 
 }  // namespace

@@ -8,12 +8,16 @@ namespace tessera::detail {
 
 struct BinDraw;
 
-/// Facing shared by all triangles of a polygon. dropped: one of its vertices is not finite.
-enum class Facing : std::uint8_t { back, front, dropped };
+/// Facing of a polygon, shared by all of its triangles.
+enum class Facing : std::uint8_t {
+  back,
+  front,
+  edge_on,  ///< no area: back for culling and polygon mode [GL 2.1, 3.5.1], front for lighting and stencil
+  dropped   ///< a vertex is not finite
+};
 
-/// Classifies the polygons, of `per_polygon` triangles each, that begin in triangles [first, last), and
-/// writes `facing` of all their triangles. The sign of the polygon's window area after clipping decides
-/// [GL 2.1, 3.5.1]. An area of 0 is front-facing, whatever the winding of front faces.
+/// Classifies the polygons of `per_polygon` triangles that begin in [first, last), by the sign of the window
+/// area that clipping leaves of them [GL 2.1, 3.5.1]. Writes `facing` for each of their triangles.
 void classify_polygon_facing(const BinDraw& draw, std::size_t per_polygon, std::size_t first,
                              std::size_t last, Facing* facing);
 

@@ -13,10 +13,10 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "framebuffer/instruction_set.h"
+#include "shading/effect_notes.h"
 #include "shading/power.h"
 
 namespace tessera::detail {
@@ -149,13 +149,13 @@ struct LightingProgram {
   float index_modulus = 2;                ///< 2^bits: the index is masked
 };
 
-/// Plans a surface: what its lights and material cannot need is not in the program. `reasons`, if given,
-/// receives a line for each term and each thing left out.
+/// Plans the lighting of a surface. Terms that its lights and material cannot need are left out.
 ///
-/// @param term_storage  where the terms will stand; what it holds goes
+/// @param notes         receives the effects of each light
+/// @param term_storage  memory for the terms; its contents are discarded
 LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked,
                               const std::vector<EyeLight>& lights, const LightingModel& model,
-                              std::string* reasons, std::vector<LightTerm> term_storage = {});
+                              const EffectNotes& notes, std::vector<LightTerm> term_storage = {});
 
 /// The material of a surface whose colour is an index.
 struct IndexMaterial {
@@ -165,7 +165,7 @@ struct IndexMaterial {
 };
 /// The same for indices.
 LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights,
-                                    const LightingModel& model, std::string* reasons,
+                                    const LightingModel& model, const EffectNotes& notes,
                                     std::vector<LightTerm> term_storage = {});
 
 /// Lights `count` points, whole vectors of lanes, of the batch: needs the fields that the program names,

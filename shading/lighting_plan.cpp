@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "framebuffer/format.h"
 #include "shading/lighting.h"
@@ -62,26 +61,15 @@ float bits_above_one(const LightTerm& term) {
   return most > 1 ? static_cast<float>(std::min(std::ilogb(most) + 1.0, kMaxBits)) : 0.0f;
 }
 
-const char* kind_name(LightKind kind) {
+EffectReason reason_of(HighlightKind kind) {
   switch (kind) {
-    case LightKind::directional: return "directional";
-    case LightKind::point: return "point, attenuation 1 0 0 left out";
-    case LightKind::attenuated_point: return "point with attenuation";
-    case LightKind::spot: return "spot, attenuation 1 0 0 left out";
-    case LightKind::attenuated_spot: return "spot with attenuation";
+    case HighlightKind::none: return EffectReason::black_specular;
+    case HighlightKind::blinn_infinite: return EffectReason::blinn_infinite_viewer;
+    case HighlightKind::blinn_local: return EffectReason::blinn_local_viewer;
+    case HighlightKind::phong_infinite: return EffectReason::phong_infinite_viewer;
+    case HighlightKind::phong_local: return EffectReason::phong_local_viewer;
   }
-  return "";
-}
-
-const char* highlight_name(HighlightKind kind) {
-  switch (kind) {
-    case HighlightKind::none: return "no highlight (specular product is black)";
-    case HighlightKind::blinn_infinite: return "Blinn highlight, infinite viewer";
-    case HighlightKind::blinn_local: return "Blinn highlight, local viewer";
-    case HighlightKind::phong_infinite: return "Phong highlight, infinite viewer";
-    case HighlightKind::phong_local: return "Phong highlight, local viewer";
-  }
-  return "";
+  return EffectReason::requested;
 }
 
 LightKind kind_of(const EyeLight& light) {
@@ -90,6 +78,27 @@ LightKind kind_of(const EyeLight& light) {
       !(light.attenuation[0] == 1 && light.attenuation[1] == 0 && light.attenuation[2] == 0);
   if (light.spot_cutoff == 180) return attenuated ? LightKind::attenuated_point : LightKind::point;
   return attenuated ? LightKind::attenuated_spot : LightKind::spot;
+}
+
+void note_term(const EffectNotes& notes, const LightTerm& term, int light) {
+  const auto note = [&](Effect effect, bool active, EffectReason reason) {
+    notes.add({.effect = effect, .active = active, .reason = reason, .light = light});
+  };
+  const bool directional = term.kind == LightKind::directional;
+  note(Effect::light, true, directional ? EffectReason::directional : EffectReason::positional);
+  if (!directional) {
+    const bool attenuated =
+        term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot;
+    note(Effect::light_attenuation, attenuated,
+         attenuated ? EffectReason::requested : EffectReason::unit_attenuation);
+    note(Effect::light_spot, is_spot(term.kind),
+         is_spot(term.kind) ? EffectReason::requested : EffectReason::cutoff_180);
+  }
+  note(Effect::light_highlight, term.highlight != HighlightKind::none, reason_of(term.highlight));
+  if (!is_black(term.ambient) || !is_black(term.tracked_ambient))
+    note(Effect::light_ambient, true, EffectReason::requested);
+  if (!is_black(term.tracked_diffuse) || !is_black(term.tracked_specular))
+    note(Effect::light_tracked_colors, true, EffectReason::requested);
 }
 
 // What no float holds is the largest one: where no light arrives, nothing times it is still nothing.
@@ -114,7 +123,7 @@ EyeLight to_luminance(const EyeLight& light) {
 /// @param convert  applied to each light: identity, or its luminance
 LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors& tracked,
                            const std::vector<EyeLight>& lights, EyeLight (&convert)(const EyeLight&),
-                           const LightingModel& model, std::string* reasons,
+                           const LightingModel& model, const EffectNotes& notes,
                            std::vector<LightTerm> term_storage) {
   LightingProgram program;
   program.terms = std::move(term_storage);
@@ -128,10 +137,9 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
 
   for (std::size_t number = 0; number < lights.size(); ++number) {
     const EyeLight light = convert(lights[number]);
-    const auto note = [&](const auto&... parts) {
-      if (!reasons) return;
-      *reasons += "  light " + std::to_string(number) + ": ";
-      (*reasons += ... += parts) += "\n";
+    const auto note_skipped = [&](EffectReason reason) {
+      notes.add(
+          {.effect = Effect::light, .active = false, .reason = reason, .light = static_cast<int>(number)});
     };
     LightTerm term;
     const float factor =
@@ -146,7 +154,7 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
     const bool has_diffuse = !is_black(term.diffuse) || !is_black(term.tracked_diffuse);
     const bool has_specular = !is_black(term.specular) || !is_black(term.tracked_specular);
     if (!has_ambient && !has_diffuse && !has_specular) {
-      note("left out, it adds black");
+      note_skipped(EffectReason::black);
       continue;
     }
     term.kind = kind_of(light);
@@ -156,7 +164,7 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
       program.tracked_base = program.tracked_base + term.tracked_ambient;
       term.ambient = term.tracked_ambient = {};
       if (!has_diffuse && !has_specular) {
-        note("a constant ambient part");
+        note_skipped(EffectReason::constant_ambient);
         continue;
       }
     }
@@ -192,10 +200,7 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
     program.needs_position |= term.kind != LightKind::directional;
     program.needs_view |=
         term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
-    const bool has_more = !is_black(term.ambient) || !is_black(term.tracked_ambient) ||
-                          !is_black(term.tracked_diffuse) || !is_black(term.tracked_specular);
-    note(kind_name(term.kind), "; ", highlight_name(term.highlight),
-         has_more ? "; ambient part or vertex colours" : "");
+    note_term(notes, term, static_cast<int>(number));
     program.terms.push_back(term);
   }
   program.needs_position |= program.needs_view;
@@ -206,12 +211,12 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
 
 LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked,
                               const std::vector<EyeLight>& lights, const LightingModel& model,
-                              std::string* reasons, std::vector<LightTerm> term_storage) {
-  return plan_terms(material, tracked, lights, unchanged, model, reasons, std::move(term_storage));
+                              const EffectNotes& notes, std::vector<LightTerm> term_storage) {
+  return plan_terms(material, tracked, lights, unchanged, model, notes, std::move(term_storage));
 }
 
 LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights,
-                                    const LightingModel& model, std::string* reasons,
+                                    const LightingModel& model, const EffectNotes& notes,
                                     std::vector<LightTerm> term_storage) {
   const auto [ambient, diffuse, specular] = material.indexes;
   // Red adds up d, green s. Where both ends are the same index, what leads from one to the other does not
@@ -223,7 +228,7 @@ LightingProgram plan_index_lighting(const IndexMaterial& material, const std::ve
   LightingModel dark = model;
   dark.scene_ambient = {};
   LightingProgram program =
-      plan_terms(surface, {}, lights, to_luminance, dark, reasons, std::move(term_storage));
+      plan_terms(surface, {}, lights, to_luminance, dark, notes, std::move(term_storage));
   program.index = true;
   program.indexes = material.indexes;
   program.index_modulus = material.modulus;

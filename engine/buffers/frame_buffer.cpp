@@ -7,6 +7,7 @@
 #include "engine/buffers/view_depth.h"
 #include "engine/plan/draw_plan.h"
 #include "engine/record/checks.h"
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/out_of_memory.h"
 #include "engine/runtime/worker_pool.h"
 #include "engine/tessera/tessera.hpp"
@@ -33,8 +34,9 @@ namespace {
 void require_range(const std::string& what, long long value, long long low, long long high,
                    const char* unit = "") {
   if (value < low || value > high)
-    throw Error("FrameBuffer: " + what + " is " + std::to_string(value) + unit + ", must be " +
-                std::to_string(low) + " to " + std::to_string(high));
+    throw Error(ErrorCode::invalid_argument, "FrameBuffer: " + what + " is " + std::to_string(value) + unit +
+                                                 ", must be " + std::to_string(low) + " to " +
+                                                 std::to_string(high));
 }
 
 Color to_color(Rgb8 c) { return {c.r / 255.0f, c.g / 255.0f, c.b / 255.0f, 1}; }
@@ -48,19 +50,23 @@ std::vector<Color> to_colors(const std::vector<Rgb8>& entries) {
 
 void require_image(const ImageTarget& target, const FrameBufferFormat& format, const char* function) {
   if (target.pixels == nullptr)
-    throw Error(std::string(function) + ": the target's pixels are a null pointer");
+    throw Error(ErrorCode::invalid_argument,
+                std::string(function) + ": the target's pixels are a null pointer");
   if (target.width != format.width || target.height != format.height)
-    throw Error(std::string(function) + ": the target is " + std::to_string(target.width) + " x " +
-                std::to_string(target.height) + " pixels, the frame buffer is " +
-                std::to_string(format.width) + " x " + std::to_string(format.height));
+    throw Error(ErrorCode::invalid_argument,
+                std::string(function) + ": the target is " + std::to_string(target.width) + " x " +
+                    std::to_string(target.height) + " pixels, the frame buffer is " +
+                    std::to_string(format.width) + " x " + std::to_string(format.height));
   const std::ptrdiff_t row = std::ptrdiff_t{4} * target.width;
   if (target.height > 1 && target.stride_bytes < row && target.stride_bytes > -row)
-    throw Error(std::string(function) + ": the target's stride is " + std::to_string(target.stride_bytes) +
-                " bytes, a row takes " + std::to_string(row));
+    throw Error(ErrorCode::invalid_argument, std::string(function) + ": the target's stride is " +
+                                                 std::to_string(target.stride_bytes) +
+                                                 " bytes, a row takes " + std::to_string(row));
   require_enum({function, ": the target's order"}, target.order, PixelOrder::bgra8);
   if (target.region && (target.region->width < 0 || target.region->height < 0))
-    throw Error(std::string(function) + ": the target's region is " + std::to_string(target.region->width) +
-                " x " + std::to_string(target.region->height) + " pixels, must not be negative");
+    throw Error(ErrorCode::invalid_argument,
+                std::string(function) + ": the target's region is " + std::to_string(target.region->width) +
+                    " x " + std::to_string(target.region->height) + " pixels, must not be negative");
 }
 
 template <class T>
@@ -68,9 +74,10 @@ void require_pixels(std::span<T> span, const FrameBufferFormat& format, const ch
                     std::size_t components = 1) {
   const std::size_t pixels = static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
   if (span.size() != components * pixels)
-    throw Error(std::string(function) + ": the span holds " + std::to_string(span.size()) +
-                " elements, the frame buffer has " + std::to_string(pixels) + " pixels" +
-                (components > 1 ? " of " + std::to_string(components) + " components" : ""));
+    throw Error(ErrorCode::invalid_argument,
+                std::string(function) + ": the span holds " + std::to_string(span.size()) +
+                    " elements, the frame buffer has " + std::to_string(pixels) + " pixels" +
+                    (components > 1 ? " of " + std::to_string(components) + " components" : ""));
 }
 
 }  // namespace
@@ -95,15 +102,17 @@ std::vector<Color> named_palette(std::string_view palette_name, int color_bits) 
   const FloatingPointMode mode;
   const auto entries = palette_entries(palette_name, color_bits);
   if (!entries)
-    throw Error("palette: \"" + std::string(palette_name) +
-                "\" is unknown, it must be bw, gray, ega16, vga256 or web216");
+    throw Error(ErrorCode::invalid_argument,
+                "palette: \"" + std::string(palette_name) +
+                    "\" is unknown, it must be bw, gray, ega16, vga256 or web216");
   if (entries->size() > std::size_t{1} << color_bits)
-    throw Error("palette: " + std::string(palette_name) + " has " + std::to_string(entries->size()) +
-                " entries, " + std::to_string(color_bits) + " bits hold at most " +
-                std::to_string(std::size_t{1} << color_bits));
+    throw Error(ErrorCode::invalid_argument, "palette: " + std::string(palette_name) + " has " +
+                                                 std::to_string(entries->size()) + " entries, " +
+                                                 std::to_string(color_bits) + " bits hold at most " +
+                                                 std::to_string(std::size_t{1} << color_bits));
   return to_colors(*entries);
 } catch (const std::bad_alloc&) {
-  throw Error("palette: not enough memory");
+  throw Error(ErrorCode::out_of_memory, "palette: not enough memory");
 }
 
 std::vector<Color> default_palette(int color_bits) {
@@ -116,8 +125,9 @@ namespace {
 
 void require_palette_size(std::size_t entries, int bits) {
   if (entries > std::size_t{1} << bits)
-    throw Error("FrameBuffer: the palette has " + std::to_string(entries) + " entries, " +
-                std::to_string(bits) + " bits hold at most " + std::to_string(std::size_t{1} << bits));
+    throw Error(ErrorCode::invalid_argument, "FrameBuffer: the palette has " + std::to_string(entries) +
+                                                 " entries, " + std::to_string(bits) + " bits hold at most " +
+                                                 std::to_string(std::size_t{1} << bits));
 }
 
 void check_format(const FrameBufferFormat& format) {
@@ -129,27 +139,34 @@ void check_format(const FrameBufferFormat& format) {
   require_range("color_bits", format.color_bits, 1, 24);
   require_range("stencil_bits", format.stencil_bits, 0, 8);
   if (format.alpha_bits != 0 && format.alpha_bits != 8)
-    throw Error("FrameBuffer: alpha_bits is " + std::to_string(format.alpha_bits) + ", must be 0 or 8");
+    throw Error(ErrorCode::invalid_argument,
+                "FrameBuffer: alpha_bits is " + std::to_string(format.alpha_bits) + ", must be 0 or 8");
   if (format.alpha_bits != 0 && format.color_mode == ColorMode::index)
-    throw Error("FrameBuffer: alpha planes are asked for, but the colour mode is index; they belong to rgb");
+    throw Error(ErrorCode::invalid_argument,
+                "FrameBuffer: alpha planes are asked for, but the colour mode is index; they belong to rgb");
   if (format.samples != 1 && format.samples != 4 && format.samples != 8)
-    throw Error("FrameBuffer: samples is " + std::to_string(format.samples) + ", must be 1, 4 or 8");
+    throw Error(ErrorCode::invalid_argument,
+                "FrameBuffer: samples is " + std::to_string(format.samples) + ", must be 1, 4 or 8");
   if (format.samples != 1 && format.color_mode == ColorMode::index)
     throw Error(
+        ErrorCode::invalid_argument,
         "FrameBuffer: several samples a pixel are asked for, but the colour mode is index; indices have no "
         "mean");
   if (format.accumulation_bits != 0 && format.accumulation_bits != 16 && format.accumulation_bits != 32)
-    throw Error("FrameBuffer: accumulation_bits is " + std::to_string(format.accumulation_bits) +
-                ", must be 0, 16 or 32");
+    throw Error(ErrorCode::invalid_argument, "FrameBuffer: accumulation_bits is " +
+                                                 std::to_string(format.accumulation_bits) +
+                                                 ", must be 0, 16 or 32");
   if (format.accumulation_bits != 0 && format.color_mode == ColorMode::index)
     throw Error(
+        ErrorCode::invalid_argument,
         "FrameBuffer: an accumulation buffer is asked for, but the colour mode is index; it belongs to rgb");
   if (format.color_mode == ColorMode::rgb && !format.palette.empty())
-    throw Error("FrameBuffer: a palette is given, but the colour mode is rgb; palettes belong to index mode");
+    throw Error(ErrorCode::invalid_argument,
+                "FrameBuffer: a palette is given, but the colour mode is rgb; palettes belong to index mode");
   require_palette_size(format.palette.size(), format.color_bits);
 }
 
-// The palette as it is stored.
+// Quantizes the palette.
 Palette checked_palette(std::span<const Color> colors, int bits) {
   require_palette_size(colors.size(), bits);
   Palette palette{.bits = bits, .entries = {}};
@@ -157,8 +174,9 @@ Palette checked_palette(std::span<const Color> colors, int bits) {
     const Color& c = colors[i];
     for (const float component : {c.r, c.g, c.b, c.a})
       if (!(component >= 0 && component <= 1))
-        throw Error("FrameBuffer: palette entry " + std::to_string(i) + " has a component " +
-                    std::to_string(component) + ", must be 0 to 1");
+        throw Error(ErrorCode::invalid_argument, "FrameBuffer: palette entry " + std::to_string(i) +
+                                                     " has a component " + std::to_string(component) +
+                                                     ", must be 0 to 1");
     palette.entries.push_back(quantize_rgb8(c.r, c.g, c.b));
   }
   return palette;
@@ -190,18 +208,20 @@ FrameBuffer::FrameBuffer(FrameBufferFormat format) try : state_(std::make_unique
   make_planes(s);
   if (s.depth_format != DepthFormat::none) s.depth.fast_clear(quantize_depth(s.depth_format, 1.0));
 } catch (const std::bad_alloc&) {
-  throw Error("FrameBuffer: not enough memory");
+  throw Error(ErrorCode::out_of_memory, "FrameBuffer: not enough memory");
 }
 
 FrameBuffer::FrameBuffer(FrameBufferFormat format, std::span<std::byte> memory)
     : FrameBuffer(std::move(format)) {
   const std::size_t needed = memory_bytes(state_->format);
   if (memory.size() < needed)
-    throw Error("FrameBuffer: the memory given takes " + std::to_string(memory.size()) +
-                " bytes, the format needs " + std::to_string(needed));
+    throw Error(ErrorCode::invalid_argument, "FrameBuffer: the memory given takes " +
+                                                 std::to_string(memory.size()) + " bytes, the format needs " +
+                                                 std::to_string(needed));
   if (reinterpret_cast<std::uintptr_t>(memory.data()) % kPlaneAlignment != 0)
-    throw Error("FrameBuffer: the memory given is at an address that is no multiple of " +
-                std::to_string(kPlaneAlignment));
+    throw Error(ErrorCode::invalid_argument,
+                "FrameBuffer: the memory given is at an address that is no multiple of " +
+                    std::to_string(kPlaneAlignment));
   auto* at = reinterpret_cast<std::uint8_t*>(memory.data());
   for (const Buffer which : kBuffers)
     for (Attachment& attachment : state_->attachments(which)) {
@@ -235,7 +255,8 @@ const FrameBufferFormat& FrameBuffer::format() const noexcept { return state_->f
 void FrameBuffer::set_palette(std::span<const Color> entries) {
   FrameBufferState& s = *state_;
   if (!s.layout.index)
-    throw Error("FrameBuffer::set_palette: the colour mode is rgb; palettes belong to index mode");
+    throw Error(ErrorCode::incompatible_format,
+                "FrameBuffer::set_palette: the colour mode is rgb; palettes belong to index mode");
   translate_bad_alloc("FrameBuffer::set_palette", [&] {
     const FloatingPointMode mode;
     std::vector<Color> colors = entries.empty() ? default_palette(s.format.color_bits)
@@ -262,14 +283,15 @@ namespace {
 const Attachment& require_defined(FrameBufferState& state, Buffer which, const char* function) {
   const Attachment& buffer = state.buffer(which);
   if (buffer.planes.plane_count() == 0)
-    throw Error(std::string(function) + ": the frame buffer has no " + std::string(name(which)) + " buffer");
+    throw Error(ErrorCode::incompatible_format,
+                std::string(function) + ": the frame buffer has no " + std::string(name(which)) + " buffer");
   if (buffer.content == Attachment::Content::undefined)
-    throw Error(std::string(function) + ": the last frame did not keep the " + std::string(name(which)) +
-                " buffer; name it in Frame::keep()");
+    throw Error(ErrorCode::invalid_state, std::string(function) + ": the last frame did not keep the " +
+                                              std::string(name(which)) + " buffer; name it in Frame::keep()");
   return buffer;
 }
 
-// Calls use(words of a row, y) for every row from the top. Planes are read in bands, tile by tile.
+// Calls use(words of a row, y) for every row from the top. Planes are read in bands of tiles.
 template <class Use>
 void for_each_row(const Attachment& buffer, const char* function, const Use& use) {
   constexpr int kBandRows = 32;
@@ -310,8 +332,9 @@ PlaneView FrameBuffer::plane(Buffer which, int k) const try {
   require_enum({"FrameBuffer::plane: buffer"}, which, Buffer::accumulation);
   require_defined(*state_, which, "FrameBuffer::plane");
   if (k < 0 || k >= plane_count(which))
-    throw Error("FrameBuffer::plane: plane " + std::to_string(k) + " of the " + std::string(name(which)) +
-                " buffer, which has planes 0 to " + std::to_string(plane_count(which) - 1));
+    throw Error(ErrorCode::invalid_argument,
+                "FrameBuffer::plane: plane " + std::to_string(k) + " of the " + std::string(name(which)) +
+                    " buffer, which has planes 0 to " + std::to_string(plane_count(which) - 1));
   const std::span<Attachment> attachments = state_->attachments(which);
   for (Attachment& attachment : attachments) attachment.materialize();
   const int planes = attachments.front().planes.plane_count();
@@ -319,7 +342,8 @@ PlaneView FrameBuffer::plane(Buffer which, int k) const try {
   return {buffer.planes.plane(k % planes), buffer.planes.width_px(), buffer.planes.height_px(),
           buffer.planes.stride_bytes()};
 } catch (const std::bad_alloc&) {
-  throw Error("FrameBuffer::plane: not enough memory for the " + std::string(name(which)) + " planes");
+  throw Error(ErrorCode::out_of_memory,
+              "FrameBuffer::plane: not enough memory for the " + std::string(name(which)) + " planes");
 }
 
 void FrameBuffer::read_color(const ImageTarget& target) const {
@@ -399,7 +423,7 @@ void FrameBuffer::read_accumulation(std::span<float> rgba) const {
   const FloatingPointMode mode;
   for (std::size_t c = 0; c < 4; ++c)
     for_each_row(state_->accumulation[c], kFunction, [&](std::span<const std::uint32_t> row, std::size_t y) {
-      // The lowest level is a step below -1.
+      // The lowest level lies one step below -1.
       for (std::size_t x = 0; x < row.size(); ++x)
         rgba[4 * (y * row.size() + x) + c] = static_cast<float>(
             std::max(accumulation_level_from_stored(row[x], bits) / accumulation_one(bits), -1.0));

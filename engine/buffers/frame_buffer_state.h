@@ -1,4 +1,4 @@
-// What a frame buffer is made of.
+// State of a FrameBuffer.
 #pragma once
 
 #include <array>
@@ -14,21 +14,21 @@
 
 namespace tessera::detail {
 
-/// As they follow each other in memory.
+/// In the order of their planes in memory.
 inline constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation};
 
-/// One buffer of the stack, and what is known of it without looking at its planes.
+/// One stack of bitplanes, and the state of its contents.
 struct Attachment {
   enum class Content : std::uint8_t {
-    fast_cleared,  ///< every pixel has `clear_value`; nothing is allocated
-    planes,        ///< it stands in the planes
+    fast_cleared,  ///< every pixel has `clear_value`; planes are not valid
+    planes,        ///< stored in the planes
     undefined      ///< the last frame did not keep it
   };
   BitplaneStack planes;
   Content content = Content::fast_cleared;
   std::uint32_t clear_value = 0;
 
-  /// Makes the planes real. Throws std::bad_alloc; then nothing changed.
+  /// Stores a fast clear in the planes. Throws std::bad_alloc; then nothing has changed.
   void materialize() {
     if (content != Content::fast_cleared) return;
     if (planes.allocated()) planes.fill(clear_value);
@@ -41,7 +41,7 @@ struct Attachment {
     content = Content::fast_cleared;
     clear_value = value & planes.value_mask();
   }
-  /// The caller looks at memory of its own: what is known has to stand there.
+  /// External memory is read by the caller: it must hold the contents.
   void materialize_external_memory() {
     if (planes.uses_external_memory() && planes.plane_count() > 0) materialize();
   }
@@ -52,11 +52,11 @@ struct FrameBufferState {
   ColorLayout layout;
   DepthFormat depth_format = DepthFormat::none;
   Palette palette;                                ///< index mode
-  std::unique_ptr<PaletteSearch> palette_search;  ///< made when a colour first needs it
+  std::unique_ptr<PaletteSearch> palette_search;  ///< built on first use
   Attachment color, depth, stencil;
-  std::array<Attachment, 4> accumulation;  ///< red, green, blue, alpha: a stack holds at most 32 planes
+  std::array<Attachment, 4> accumulation;  ///< r g b a: one stack holds at most 32 planes
 
-  /// Of accumulation the first of its four; what is lost, all of them are.
+  /// The first stack of a buffer. The four of accumulation share their state.
   Attachment& buffer(Buffer which) {
     switch (which) {
       case Buffer::color: return color;
@@ -65,13 +65,13 @@ struct FrameBufferState {
       default: return accumulation[0];
     }
   }
-  /// What a buffer consists of, in the order of its planes; what is no Buffer, of nothing.
+  /// The stacks of a buffer, in the order of its planes; empty for a value that is no Buffer.
   std::span<Attachment> attachments(Buffer which) {
     if (which > Buffer::accumulation) return {};
     if (which == Buffer::accumulation) return accumulation;
     return {&buffer(which), 1};
   }
-  /// The search structure, made on first use.
+  /// Null for RGB buffers. Built on first use.
   const PaletteSearch* ensure_palette_search() {
     if (!layout.index) return nullptr;
     if (!palette_search)

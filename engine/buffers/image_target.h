@@ -1,4 +1,4 @@
-// Checks of the caller's image memory.
+// Checks of image targets.
 #pragma once
 
 #include "engine/tessera/tessera.hpp"
@@ -6,10 +6,10 @@
 
 namespace tessera::detail {
 
-/// Throws Error where the target cannot take a picture of that format.
+/// Throws Error if the target does not fit the format.
 void check_image_target(const ImageTarget& target, const FrameBufferFormat& format);
 
-/// The pixels of a checked target that are to be written, rows counted from the top.
+/// Pixels of a checked target that are written, rows from the top.
 PixelRect target_region(const ImageTarget& target);
 
 }  // namespace tessera::detail

@@ -16,17 +16,17 @@ ViewDepth::ViewDepth(const Camera& camera, float background, const char* functio
     std::string rows;
     for (std::size_t i = 8; i < 16; ++i)
       rows += (i == 8 ? "" : i == 12 ? " and " : ", ") + format_number(m[i]);
-    throw Error(std::string(function) + ": projection's rows of z and w are " + rows + ", they must " +
-                needed);
+    throw Error(ErrorCode::invalid_argument, std::string(function) + ": projection's rows of z and w are " +
+                                                 rows + ", they must " + needed);
   };
   if (m[8] != 0 || m[9] != 0 || m[12] != 0 || m[13] != 0)
     refuse("have 0 for x and y, or a depth has no distance of its own");
-  // By the largest of them, for products that are numbers; that changes no quotient.
+  // Divide by the largest coefficient, so that products are finite; quotients do not change.
   const double largest = std::max({std::abs(m[10]), std::abs(m[11]), std::abs(m[14]), std::abs(m[15])});
   const int exponent = largest > 0 ? -std::ilogb(largest) : 0;
   const auto scaled = [&](double element) { return std::scalbn(element, exponent); };
   a_ = scaled(m[10]), b_ = scaled(m[11]), c_ = scaled(m[14]), e_ = scaled(m[15]);
-  // Where the two differ by more than products of 2^-53 are rounded by, no z is 0/0.
+  // If the products differ by more than their rounding (2^-53), no z yields 0/0.
   if (!(std::abs(a_ * e_ - b_ * c_) > 0x1p-50 * (std::abs(a_ * e_) + std::abs(b_ * c_))))
     refuse("not be multiples of each other, or all depths are the same");
 }

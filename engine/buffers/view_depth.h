@@ -1,23 +1,22 @@
-// How far from the eye's plane what is stored in a depth buffer is.
+// Conversion of stored depth to distance from the eye plane.
 #pragma once
 
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera::detail {
 
-/// By a projection for which each depth has one z.
+/// Inverse of a projection that maps each depth to one z.
 class ViewDepth {
  public:
-  /// @param function  whose argument the camera is, for its errors
-  /// @throws Error where x or y have a say in depth, or all depths are the same
+  /// @param function  named in errors
+  /// @throws Error  if depth depends on x or y, or is constant
   ViewDepth(const Camera& camera, float background, const char* function);
 
-  /// Distance from the eye's plane, positive before it, of what has the depth `stored`; the background where
-  /// that is the far end.
+  /// Distance from the eye plane at depth `stored`, positive in front of it; the background at the far end.
   float at(double stored) const noexcept;
 
  private:
-  double a_, b_, c_, e_;  // depth is (a z + b) / (c z + e) of eye space's z, or half of one more than that
+  double a_, b_, c_, e_;  // depth is q = (a z + b) / (c z + e) for z in eye space, or (q + 1) / 2
   bool reversed_;
   float background_;
 };

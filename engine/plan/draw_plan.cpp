@@ -67,7 +67,7 @@ const Material& back_material(const DrawState& state) {
   return state.back_material ? *state.back_material : state.material;
 }
 
-/// Whether back faces have a material of their own, and which faces' colours are indices.
+/// Two-sided lighting, and the faces whose colours are indices.
 void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout) {
   const DrawState& state = draw.state;
   if (plan.write_mask == 0) return;
@@ -78,26 +78,26 @@ void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   plan.is_index[1] = plan.two_sided ? back_material(state).index_ramp.has_value() : plan.is_index[0];
 }
 
-/// What of the mesh's and the materials' colours and indices is not looked at.
+/// Notes colour inputs of the mesh and the materials that this draw ignores.
 void note_unused_colors(const DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
-                        std::string& reasons) {
+                        const EffectNotes& notes) {
   const DrawState& state = draw.state;
-  const auto note = [&](const char* line) { reasons += std::string("  ") + line + "\n"; };
+  const bool has_colors = draw.mesh.has_colors();
   if (draw.mesh.color_indices && !plan.uses_color_indices)
-    note(layout.index ? "the mesh's color_indices are not used: it is lit"
-                      : "the mesh's color_indices are not used: the buffer holds RGB");
-  if (draw.mesh.has_colors() && plan.uses_color_indices)
-    note("the mesh's colours are not used: it has color_indices");
+    notes.skipped(Effect::color_indices, layout.index ? EffectReason::draw_is_lit : EffectReason::rgb_buffer);
+  if (has_colors && plan.uses_color_indices)
+    notes.skipped(Effect::vertex_colors, EffectReason::draw_has_color_indices);
   if (!state.lighting) return;
-  if (draw.mesh.has_colors() && state.color_material == ColorMaterial::none)
-    note("the mesh's colours are not used: it is lit, and color_material is none");
-  if (draw.mesh.has_colors() && state.color_material != ColorMaterial::none && plan.only_indices())
-    note("the mesh's colours are not used: the material has an index_ramp");
+  if (has_colors && state.color_material == ColorMaterial::none)
+    notes.skipped(Effect::vertex_colors, EffectReason::color_material_none);
+  if (has_colors && state.color_material != ColorMaterial::none && plan.only_indices())
+    notes.skipped(Effect::vertex_colors, EffectReason::material_has_index_ramp);
   if (!layout.index && (state.material.index_ramp || (plan.two_sided && back_material(state).index_ramp)))
-    note("the material's index_ramp is not used: the buffer holds RGB");
+    notes.skipped(Effect::index_lighting, EffectReason::rgb_buffer);
 }
 
-void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, std::string* reasons) {
+void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
+                 const EffectNotes& notes) {
   const LightModel& model = draw.scene_state->light_model;
   const glm::dmat4 view = to_glm(draw.scene_state->camera.view);
   plan.lights.clear();
@@ -107,18 +107,18 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& la
   const bool unit_normals = draw.state.normalize || draw.state.shading == Shading::phong;
   const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == SpecularModel::phong,
                                unit_normals};
-  const auto set_program = [&](LightingProgram& program, const Material& material, bool index) {
-    if (reasons && index)
-      *reasons += "  index lighting: emission, ambient light and the material's colours are not used\n";
+  const auto set_program = [&](LightingProgram& program, const Material& material, bool index,
+                               const EffectNotes& face_notes) {
+    if (index) face_notes.active(Effect::index_lighting);
     program = index ? plan_index_lighting({*material.index_ramp, material.shininess, layout.index_modulus()},
-                                          plan.lights, lighting, reasons, std::move(program.terms))
-                    : plan_lighting(surface(material), tracked, plan.lights, lighting, reasons,
+                                          plan.lights, lighting, face_notes, std::move(program.terms))
+                    : plan_lighting(surface(material), tracked, plan.lights, lighting, face_notes,
                                     std::move(program.terms));
   };
-  set_program(plan.front, draw.state.material, plan.is_index[0]);
+  set_program(plan.front, draw.state.material, plan.is_index[0], notes);
   if (plan.two_sided) {
-    if (reasons) *reasons += "  back faces:\n";
-    set_program(plan.back, back_material(draw.state), plan.is_index[1]);
+    notes.active(Effect::two_sided_lighting);
+    set_program(plan.back, back_material(draw.state), plan.is_index[1], notes.for_back_faces());
     plan.back.negate_normal = true;
   }
   plan.uses_vertex_colors = tracked.any() && !plan.only_indices();
@@ -127,12 +127,12 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& la
   plan.vertex_alpha = tracked.diffuse && !plan.only_indices();
 }
 
-/// The index of a program that no light has a part in.
+/// The index that a program without light terms yields.
 float unlit_index(const LightingProgram& program) {
   return masked_index(std::min(program.indexes[0], program.indexes[2]), program.index_modulus);
 }
 
-/// No light depends on the surface, and both faces look the same.
+/// No light depends on the surface, and both faces have the same colour.
 bool has_constant_color(const DrawPlan& plan) {
   if (!plan.front.terms.empty() || plan.front.tracked || (plan.float_colors && plan.vertex_alpha))
     return false;
@@ -142,14 +142,14 @@ bool has_constant_color(const DrawPlan& plan) {
                              : plan.back.base == plan.front.base && plan.alpha[0] == plan.alpha[1];
 }
 
-/// What is stored depends on what was, or on where it is stored.
+/// The stored value depends on the value before, or on the position of the pixel.
 bool is_order_dependent(const DrawPlan& plan, const ColorLayout& layout) {
   return plan.has_ops &&
          (plan.ops.blend || plan.ops.dither || plan.ops.logic != LogicOp::copy || layout.alpha_bits > 0);
 }
 
-/// What an alpha test looks at in a draw that stores no colour: a lit point has its diffuse colour's alpha,
-/// so no light is needed.
+/// Alpha for the alpha test of a draw that stores no colour. Lighting takes alpha from the diffuse colour, so
+/// no light is evaluated.
 void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
   const DrawState& state = draw.state;
   plan.vertex_alpha = plan.uses_vertex_colors =
@@ -164,11 +164,9 @@ void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
   plan.flat = state.shading == Shading::flat || plan.topology == Topology::points;
   plan.clamps_vertex_alpha = plan.flat || !state.lighting || state.shading != Shading::phong;
   plan.scaled_colors = false;
-  plan.attribute_count = plan.has_per_triangle_colors() ? 0 : 4;
 }
 
-/// One colour for the draw, and the texture, if any, over it: at the pixels, or once for all where it has one
-/// colour itself.
+/// One colour for the draw. Texels are applied at the pixels; a texture of one colour is folded in here.
 void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& layout) {
   plan.constant_color = {clamp_unit(color[0]), clamp_unit(color[1]), clamp_unit(color[2])};
   if (plan.is_index[0] || plan.texture.use == TexturePlan::Use::none) return;
@@ -186,53 +184,51 @@ void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& lay
   plan.alpha[0] = plan.alpha[1] = a;
 }
 
-/// Whether the texture has to wait for the pixels, with colours that are made at the vertices, or at the
-/// pixels themselves.
+/// Decides whether the texture is applied per pixel.
+/// @param at_vertices  colours are computed at the vertices, and interpolated without extrapolation
 void plan_texturing(DrawPlan& plan, bool at_vertices) {
   plan.textures_per_pixel =
       plan.texture.use != TexturePlan::Use::none && !(at_vertices && plan.texture.is_affine());
 }
 
 void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, bool sampled,
-                std::string* reasons) {
+                const EffectNotes& notes) {
   const DrawState& state = draw.state;
-  const auto note = [&](const char* line) {
-    if (reasons) (*reasons += "  ").append(line) += "\n";
-  };
   if (plan.write_mask == 0) {
     plan.source = ColorSource::none;
     if (plan.ops.alpha_test) plan_alpha(plan, draw);
     plan_texturing(plan, false);
-    note(plan.ops.alpha_test ? "no colour plane changes: tests alone, no lighting"
-                             : "no colour plane changes: depth alone, no lighting");
+    notes.skipped(Effect::shading, EffectReason::no_color_stored);
     return;
   }
-  if (reasons) note_unused_colors(plan, draw, layout, *reasons);
+  note_unused_colors(plan, draw, layout, notes);
+  if (!state.lighting) notes.skipped(Effect::lighting, EffectReason::disabled);
   if (plan.uses_color_indices) {
-    note("unlit indices of the vertices");
+    notes.active(Effect::color_indices);
   } else if (!state.lighting) {
     plan.uses_vertex_colors = plan.vertex_alpha = draw.mesh.has_colors();
     plan.alpha[0] = plan.alpha[1] = clamp_unit(state.material.diffuse.a);
     if (!plan.uses_vertex_colors) {
-      note("unlit, no vertex colours: one colour for the draw");
+      notes.skipped(Effect::vertex_colors, EffectReason::not_in_mesh);
+      notes.active(Effect::shading, EffectReason::per_draw);
       set_constant_color(plan, rgb(state.material.diffuse), layout);
       return;
     }
-    note("unlit vertex colours");
+    notes.active(Effect::vertex_colors);
   } else {
-    plan_lights(plan, draw, layout, reasons);
+    plan_lights(plan, draw, layout, notes);
     if (has_constant_color(plan)) {
       plan.two_sided = false;
       if (plan.is_index[0]) plan.constant_index = unlit_index(plan.front);
-      note("no light depends on the surface: one colour for the draw");
+      notes.skipped(Effect::lighting, EffectReason::independent_of_surface);
+      notes.active(Effect::shading, EffectReason::per_draw);
       set_constant_color(plan, plan.front.base, layout);
       return;
     }
     plan.lit = true;
   }
-  const bool needs_normal =
-      plan.lit && (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal));
-  const bool generate = needs_normal && !draw.mesh.normals, has_faces = plan.topology == Topology::triangles;
+  const bool generate = plan.needs_normal() && !draw.mesh.normals;
+  const bool has_faces = plan.topology == Topology::triangles;
   const bool phong = state.shading == Shading::phong && plan.lit;
   if (phong)
     for (LightingProgram* program : {&plan.front, &plan.back}) program->renormalize = true;
@@ -241,17 +237,11 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     plan.deferred = !is_order_dependent(plan, layout);
     plan_texturing(plan, false);
     plan.smooth_normals = generate;
-    plan.attribute_count = (needs_normal ? 3 : 0) +
-                           (plan.front.needs_position || plan.back.needs_position ? 3 : 0) +
-                           (plan.uses_vertex_colors ? 3 : 0);
-    if (plan.float_colors && plan.vertex_alpha) ++plan.attribute_count;
-    note(plan.deferred ? "lit at each visible pixel, once"
-                       : "lit at each pixel of each triangle: its operations depend on the order");
-  } else if (state.shading == Shading::flat ||
-             plan.topology == Topology::points) {  // a point has one colour in any case
+    notes.active(Effect::shading, plan.deferred ? EffectReason::per_pixel : EffectReason::per_fragment);
+  } else if (state.shading == Shading::flat || plan.topology == Topology::points) {  // points have one colour
     plan.face_normals = generate && has_faces;
     plan.smooth_normals = generate && !has_faces;
-    // Words have no room for texels: as floats, like colours that have operations to go through.
+    // Packed colors cannot be textured: colours are kept as floats, as for fragment operations.
     if (plan.texture.use == TexturePlan::Use::texels)
       plan.has_ops = plan.float_colors = plan.textures_per_pixel = true;
     const bool by_triangle = plan.face_normals || plan.provoking_vertex_elsewhere;
@@ -260,32 +250,45 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
       plan.source = ColorSource::interpolated;
       plan.flat = true;
       plan.scaled_colors = false;
-      plan.attribute_count = by_triangle ? 0 : plan.color_floats() * (plan.two_sided ? 2 : 1);
     }
-    note(plan.topology == Topology::points ? "points have one colour each"
-         : plan.face_normals               ? "flat, lit once a triangle with its face's normal"
-         : by_triangle                     ? "flat, one colour a triangle: that of its quad's vertex"
-                                           : "flat, lit at the vertices");
+    EffectReason rate = EffectReason::per_vertex;
+    if (plan.topology == Topology::points) rate = EffectReason::per_point;
+    else if (plan.face_normals) rate = EffectReason::per_face;
+    else if (by_triangle) rate = EffectReason::per_provoking_vertex;
+    notes.active(Effect::shading, rate);
   } else {
     plan.source = ColorSource::interpolated;
     plan.smooth_normals = generate;
-    plan_texturing(plan, has_faces && !sampled && !plan.outlines);  // elsewhere colours may be extrapolated
+    plan_texturing(plan, has_faces && !sampled && !plan.outlines);  // otherwise colours may be extrapolated
     plan.scaled_colors = !layout.index && !layout.luminance && !plan.float_colors && !sampled && has_faces &&
                          !plan.textures_per_pixel;
-    // Greys and palette entries are not linear in the colour: shade what is seen. So where samples share a
-    // colour that is not just stored.
+    // Greys and palette entries are not linear in the colour: evaluate them per visible pixel. The same
+    // applies if samples share a colour that is not merely stored.
     const bool shades_visible = layout.index || layout.luminance || plan.textures_per_pixel ||
                                 (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));
     plan.deferred = shades_visible && !is_order_dependent(plan, layout);
-    plan.attribute_count = plan.color_floats() * (plan.two_sided ? 2 : 1);
-    note(plan.deferred ? "colours interpolated at each visible pixel, once" : "colours interpolated at once");
+    notes.active(Effect::shading,
+                 plan.deferred ? EffectReason::interpolated_per_pixel : EffectReason::interpolated);
   }
-  if (generate && !has_faces) note("the mesh has neither normals nor faces: light of no direction alone");
-  if (generate && plan.smooth_normals && has_faces)
-    note("the mesh has no normals: area-weighted means over the faces at each position");
+  if (!generate) return;
+  if (!has_faces) notes.skipped(Effect::generated_normals, EffectReason::no_faces);
+  else
+    notes.active(Effect::generated_normals,
+                 plan.smooth_normals ? EffectReason::mean_normals : EffectReason::face_normals);
 }
 
-// Points, lines or polygons, which sides of these are seen, and in which style.
+void note_depth(const DrawPlan& plan, const DrawState& state, const FrameBufferState& target,
+                const EffectNotes& notes) {
+  if (target.depth_format == DepthFormat::none)
+    return notes.skipped(Effect::depth_test, EffectReason::no_depth_buffer);
+  if (!state.depth.enabled) return notes.skipped(Effect::depth_test, EffectReason::disabled);
+  if (!plan.uses_depth) return notes.skipped(Effect::depth_test, EffectReason::passes_and_writes_nothing);
+  notes.active(Effect::depth_test);
+  if (plan.depth_write) notes.active(Effect::depth_write);
+  else notes.skipped(Effect::depth_write, EffectReason::disabled);
+}
+
+// Topology, culling, polygon modes and sizes.
 void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
   const DrawState& state = draw.state;
   plan.topology = draw.mesh.topology();
@@ -293,7 +296,7 @@ void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
   plan.point_size = state.point_size;
   plan.line_width = state.line_width;
   plan.keep_front =
-      state.cull != Cull::front || !has_faces;  // points and lines are fronts, and nothing culls them
+      state.cull != Cull::front || !has_faces;  // points and lines are front-facing and never culled
   plan.keep_back = state.cull != Cull::back && has_faces;
   const PolygonMode modes[2] = {plan.keep_front ? state.front_mode : state.back_mode,
                                 plan.keep_back ? state.back_mode : state.front_mode};
@@ -309,7 +312,7 @@ void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
 }  // namespace
 
 PixelRect raster_rect(const Rect& rect, int frame_height) {
-  // In 64 bits: a rectangle may be anywhere.
+  // In 64 bits: x and y may be any int.
   const auto clamp = [](std::int64_t v) {
     return static_cast<int>(std::clamp<std::int64_t>(v, -(1 << 28), 1 << 28));
   };
@@ -329,9 +332,8 @@ std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t pl
   if (color_mask[3]) mask |= layout.alpha_mask();
   mask &= plane_mask;
   if (mask == 0) return 0;
-  return mask == (layout.value_mask() | layout.alpha_mask())
-             ? 0xffffffffu
-             : mask;  // bits beyond the planes are nobody's: a full mask needs no reading
+  // Bits above the planes do not exist; a mask of all 32 bits saves reading the stored word.
+  return mask == (layout.value_mask() | layout.alpha_mask()) ? 0xffffffffu : mask;
 }
 
 void DrawPlan::reset() {
@@ -346,7 +348,7 @@ void DrawPlan::reset() {
 }
 
 void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target, bool capture_normals,
-               std::string* reasons) {
+               const EffectNotes& notes) {
   const DrawState& state = draw.state;
   plan.reset();
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
@@ -356,72 +358,56 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
     plan_transform(plan, draw, target);
     plan_elements(plan, draw);
     plan_faces(plan, draw, target.layout);
-    if (reasons && state.shadow_on) *reasons += "  a planar shadow: unlit, in one colour\n";
+    if (state.shadow_on) notes.active(Effect::planar_shadow);
   }
   if (state.scissor) plan.rect = intersect(plan.rect, raster_rect(*state.scissor, target.format.height));
 
   const bool has_depth = state.depth.enabled && target.depth_format != DepthFormat::none;
   plan.depth_test = state.depth.test;
   plan.depth_write = state.depth.write;
-  // A test that always passes and writes nothing is no test.
   plan.uses_depth = has_depth && !(state.depth.test == Compare::always && !state.depth.write);
-  if (reasons) {
-    *reasons += !has_depth ? "  no depth test\n"
-                : !plan.uses_depth
-                    ? "  depth: always passes and writes nothing, left out\n"
-                    : std::string("  depth test") + (plan.depth_write ? "" : ", no write") + "\n";
-    if (plan.write_mask != 0 && plan.write_mask != 0xffffffffu)
-      *reasons += "  some colour planes are masked\n";
-  }
+  note_depth(plan, state, target, notes);
+  if (plan.write_mask != 0 && plan.write_mask != 0xffffffffu) notes.active(Effect::plane_masks);
   const FragmentPlan fragments =
-      plan_fragments(state, target, plan.write_mask != 0, plan.only_indices(), reasons);
+      plan_fragments(state, target, plan.write_mask != 0, plan.only_indices(), notes);
   plan.ops = fragments.ops;
   plan.uses_stencil = fragments.uses_stencil;
   if (plan.uses_depth && plan.topology == Topology::triangles) {
     plan.offset_factor = state.polygon_offset.factor;
     plan.offset_units = state.polygon_offset.units;
   }
-  if (reasons && plan.has_offset()) *reasons += "  polygon offset\n";
-  if (reasons && plan.outlines)
-    *reasons += "  polygons are drawn as lines or points: their fragments are made pixel by pixel\n";
+  if (plan.has_offset()) notes.active(Effect::polygon_offset);
+  if (plan.outlines) notes.active(Effect::polygon_mode);
   plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines;
   plan.float_colors =
       plan.has_ops && (!fragments.is_stencil_only || plan.has_offset() || plan.outlines || draw.pixels ||
                        plan.topology != Topology::triangles || target.format.samples > 1);
-  if (reasons && target.format.samples > 1)
-    *reasons += "  " + std::to_string(target.format.samples) +
-                " samples a pixel: coverage, depth and stencil at each, the colour once\n";
+  if (target.format.samples > 1)
+    notes.add({.effect = Effect::multisampling, .samples = target.format.samples});
   if (draw.pixels) {
-    plan_pixel_colors(plan, *draw.pixels, reasons);
+    plan_pixel_colors(plan, *draw.pixels, notes);
   } else {
     const bool stores_colors = plan.write_mask != 0 && !plan.only_indices();
     plan.texture =
         plan_texture(draw,
                      {stores_colors, plan.ops.alpha_test ||
                                          (stores_colors && (plan.ops.blend || target.layout.alpha_bits > 0))},
-                     reasons);
+                     notes);
     plan.float_colors |= plan.has_ops && plan.texture.use == TexturePlan::Use::texels;
-    plan_color(plan, draw, target.layout, target.format.samples > 1, reasons);
+    plan_color(plan, draw, target.layout, target.format.samples > 1, notes);
   }
-  if (reasons && plan.texture.use == TexturePlan::Use::one_color)
-    *reasons += plan.textures_per_pixel
-                    ? "  texture: one colour, worked into each pixel's\n"
-                    : "  texture: one colour, folded into the colours of vertices, faces or the draw\n";
-  if (plan.textures_per_pixel && plan.texture.use == TexturePlan::Use::texels) {
-    plan.texcoord_offset = plan.texture.texture.attribute = plan.attribute_count;
-    plan.attribute_count += 2;
-  }
-  if (capture_normals && plan.write_mask != 0 && !draw.pixels) {
-    plan.captured_normal_offset = plan.attribute_count;
-    plan.attribute_count += 3;
-  }
+  if (plan.texture.use == TexturePlan::Use::one_color)
+    notes.active(Effect::texture,
+                 plan.textures_per_pixel ? EffectReason::one_color_per_pixel : EffectReason::folded);
+  plan.varyings = varying_layout(plan, capture_normals);
+  if (plan.varyings.texcoord >= 0) plan.texture.texture.attribute = plan.varyings.texcoord;
   const bool writes_depth = plan.uses_depth && plan.depth_write;
   const bool writes_stencil = plan.uses_stencil && (plan.ops.faces[0].writes() || plan.ops.faces[1].writes());
   const bool never_seen = (has_depth && state.depth.test == Compare::never) ||
                           (plan.ops.alpha_test && plan.ops.alpha_func == Compare::never);
   plan.is_noop =
       plan.rect.empty() || (!writes_stencil && (never_seen || (plan.write_mask == 0 && !writes_depth)));
-  if (reasons && plan.is_noop) *reasons += "  can change no pixel: left out\n";
+  if (plan.is_noop) notes.skipped(Effect::draw, EffectReason::no_pixel_can_change);
 }
 
 }  // namespace tessera::detail

@@ -1,13 +1,13 @@
-// The plan of a draw: from its state and data the set of effects it needs, and with it what runs for its
-// vertices and pixels.
+// The plan of a draw: the effects that its state and data need, and the code paths of its vertices and
+// pixels.
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "engine/plan/texture_plan.h"
+#include "engine/plan/varying_layout.h"
 #include "engine/record/recording.h"
 #include "raster/vertex_transform.h"
 #include "shading/lighting.h"
@@ -16,92 +16,111 @@
 namespace tessera::detail {
 
 struct DrawPlan {
+  // Geometry.
   VertexTransform transform;
   EyeTransform eye;
-  EyeTransform captured_eye;  ///< for normals whose direction alone is wanted
+  EyeTransform captured_eye;  ///< for captured normals, whose length does not matter
   Topology topology = Topology::triangles;
-  float point_size = 1, line_width = 1;  ///< pixels
-  bool outlines = false;                 ///< some faces are drawn as lines or points
-  PolygonMode style[2] = {};             ///< of fronts and backs
-  PixelRect rect;                        ///< where pixels may change, raster space
-  bool keep_front = true, keep_back = true, front_is_clockwise = false;
+  float point_size = 1;       ///< pixels
+  float line_width = 1;       ///< pixels
+  bool outlines = false;      ///< some faces are drawn as lines or points
+  PolygonMode style[2] = {};  ///< per face: [0] front, [1] back
+  PixelRect rect;             ///< pixels that may change, raster space
+  bool keep_front = true;
+  bool keep_back = true;
+  bool front_is_clockwise = false;
   bool is_noop = false;  ///< no buffer can change
 
-  std::optional<PixelRectangle> pixel_rectangle;  ///< a bitmap or an image, in place of a mesh
-  std::int32_t depth_key = 0;                     ///< of all its pixels
+  std::optional<PixelRectangle> pixel_rectangle;  ///< a bitmap or an image in place of a mesh
+  std::int32_t depth_key = 0;                     ///< depth of its pixels
 
+  // Pixels.
   ColorSource source = ColorSource::constant;
-  bool deferred = false;
+  bool deferred = false;  ///< colours are evaluated once per visible pixel
   std::uint32_t write_mask = 0xffffffffu;
-  bool uses_depth = false, depth_write = false;
+  bool uses_depth = false;
+  bool depth_write = false;
   Compare depth_test = Compare::less;
 
-  /// Its fragments go through `ops`, or have their depth offset.
-  bool has_ops = false;
-  bool float_colors = false;  ///< and these take colours 0..1 with alpha: all but a stencil test alone of
-                              ///< untextured triangles with one sample
+  // Fragment operations.
+  bool has_ops = false;  ///< fragments go through `ops`, or have a depth offset
+  /// Operations take colours r g b a of 0 to 1. False for a stencil test alone of untextured triangles with
+  /// one sample, which stores packed colors.
+  bool float_colors = false;
   FragmentOps ops;
   bool uses_stencil = false;  ///< tests or writes it
-  float offset_factor = 0, offset_units = 0;
-  float alpha[2] = {1, 1};          ///< front, back
-  bool vertex_alpha = false;        ///< the vertices' in place of that
-  bool clamps_vertex_alpha = true;  ///< before it is interpolated: not where pixels are lit
-  bool flat = false;                ///< ColorSource::interpolated, but one colour a triangle
+  float offset_factor = 0;
+  float offset_units = 0;
+  float alpha[2] = {1, 1};          ///< per face: [0] front, [1] back
+  bool vertex_alpha = false;        ///< alpha of the vertices in place of `alpha`
+  bool clamps_vertex_alpha = true;  ///< before interpolation; lit pixels clamp it themselves
+  bool flat = false;                ///< ColorSource::interpolated with one colour per triangle
 
-  bool lit = false;        ///< lights run: at vertices, triangles or pixels
-  bool two_sided = false;  ///< back faces have a program of their own
+  // Colours.
+  bool lit = false;        ///< lighting runs, at vertices, triangles or pixels
+  bool two_sided = false;  ///< back faces have their own lighting program
   std::vector<EyeLight> lights;
   LightingProgram front, back;
-  Rgb constant_color{};      ///< ColorSource::constant; within 0 .. 1
-  bool is_index[2] = {};     ///< front, back: the colour is an index
-  float constant_index = 0;  ///< ColorSource::constant, if it is
-  bool uses_vertex_colors = false, uses_color_indices = false;
-  bool smooth_normals = false;              ///< the mesh has none: means of its faces
-  bool face_normals = false;                ///< the mesh has none: flat
-  bool provoking_vertex_elsewhere = false;  ///< flat, and the provoking vertex is not one of each triangle's
-  bool scaled_colors = true;                ///< interpolated colours are carried in levels
+  Rgb constant_color{};      ///< ColorSource::constant; 0 to 1
+  bool is_index[2] = {};     ///< per face, [0] front, [1] back: the colour is an index
+  float constant_index = 0;  ///< ColorSource::constant, if it is an index
+  bool uses_vertex_colors = false;
+  bool uses_color_indices = false;
+  bool smooth_normals = false;  ///< generated: means of the face normals
+  bool face_normals = false;    ///< generated: flat
+  bool provoking_vertex_elsewhere =
+      false;                  ///< flat: the provoking vertex may lie in another triangle of a quad
+  bool scaled_colors = true;  ///< interpolated colours are carried as levels
 
   TexturePlan texture;
-  bool textures_per_pixel = false;  ///< at each of them
-  bool folds_texture() const {
-    return !textures_per_pixel && texture.use != TexturePlan::Use::none;
-  }  ///< its one colour into the colours of vertices, triangles or the draw
+  bool textures_per_pixel = false;
 
-  /// Floats of a vertex's record: normal, position, colour as needed (per pixel), or colours front [and
-  /// back]; then texture coordinates, then the normal that a capture wants.
-  int attribute_count = 0;
-  int texcoord_offset = -1;         ///< where they begin; -1: none are wanted
-  int captured_normal_offset = -1;  ///< where it begins; -1: none is wanted
+  VaryingLayout varyings;
 
+  /// Inputs of lighting, at vertices, triangles or pixels.
+  bool needs_normal() const { return lit && (front.needs_normal || (two_sided && back.needs_normal)); }
+  bool needs_position() const { return lit && (front.needs_position || (two_sided && back.needs_position)); }
+  /// The texture's one colour is folded into the colours of vertices, triangles or the draw.
+  bool folds_texture() const { return !textures_per_pixel && texture.use != TexturePlan::Use::none; }
   bool has_offset() const { return offset_factor != 0 || offset_units != 0; }
   bool only_indices() const { return is_index[0] && is_index[1]; }
-  bool uses_palette() const {
-    return write_mask != 0 && !only_indices();
-  }  ///< in the palette, if the buffer has one
-  /// Floats that a vertex's colour of one face takes: for operations that take it it has alpha; an index has
-  /// no more than itself, but beside a face with colours as much room as those.
-  int color_floats() const { return only_indices() ? 1 : float_colors ? 4 : 3; }
-  /// Colours are made for triangles, not for vertices.
+  /// Maps colours to palette entries, if the buffer has a palette.
+  bool uses_palette() const { return write_mask != 0 && !only_indices(); }
+  /// Floats of a vertex's colour, per face. If one face stores an index and the other a colour, both take the
+  /// room of a colour.
+  int color_floats() const {
+    if (only_indices()) return 1;
+    return float_colors ? 4 : 3;
+  }
+  /// Colours are computed per triangle, not per vertex.
   bool has_per_triangle_colors() const {
     return source == ColorSource::per_triangle_packed ||
            (flat && (face_normals || provoking_vertex_elsewhere));
   }
 
-  /// As a new one, but that its lists keep their memory.
+  /// Restores the defaults; lists keep their memory.
   void reset();
 };
 
-/// @param plan  is replaced
-/// @param capture_normals  each pixel's normal is wanted besides its colour
-/// @param reasons  if given, receives a line for each effect: what is in, what is left out, why.
+/// @param plan             is replaced
+/// @param capture_normals  the frame captures normals
+/// @param notes            receives the effects of the draw
 void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target, bool capture_normals,
-               std::string* reasons);
+               const EffectNotes& notes);
 
-/// The bits of colour words that may change; all 32 for all planes.
+/// Bits of stored colour words that may change; all 32 bits if all planes may.
 std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask,
                          const ColorLayout& layout);
 
-/// A rectangle in window coordinates as pixels in raster space.
+/// A rectangle of window coordinates in raster space.
 PixelRect raster_rect(const Rect& rect, int frame_height);
+
+inline PixelRect whole_buffer(const FrameBufferState& target) {
+  return {0, 0, target.format.width, target.format.height};
+}
+/// Whether `rect` contains all of `whole`.
+inline bool covers(const PixelRect& rect, const PixelRect& whole) {
+  return rect.x0 <= whole.x0 && rect.y0 <= whole.y0 && rect.x1 >= whole.x1 && rect.y1 >= whole.y1;
+}
 
 }  // namespace tessera::detail

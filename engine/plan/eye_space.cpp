@@ -21,8 +21,8 @@ std::array<float, 3> unit(const glm::dvec3& v) {
 
 double max_abs(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-// Squares of distances are floats. A light from 2^62 on stands nearer, by a power of two and in the same
-// direction, and is attenuated as where it was.
+// Squared distances are floats. A light at 2^62 or farther is moved nearer by a power of two, in the same
+// direction; its attenuation is that of the original distance.
 void bring_within_float_range(EyeLight& light, const glm::dvec3& at) {
   constexpr int kMaxDistanceExponent = 62;
   const double distance = max_abs(at);
@@ -58,9 +58,9 @@ EyeLight eye_light(const Light& light, const glm::dmat4& view) {
   return e;
 }
 
-// The inverse transpose is the matrix of cofactors over the determinant; a singular matrix keeps the
-// cofactors. Powers of two are taken out, so that nothing leaves a double's range, and put back where lengths
-// matter: they change no bit.
+// The inverse transpose is the matrix of cofactors divided by the determinant; a singular matrix keeps the
+// cofactors. Powers of two are factored out, so that no product leaves the range of doubles, and multiplied
+// back if lengths matter. They change no bit.
 EyeTransform eye_transform(const glm::dmat4& eye_from_object, const NormalLengths& lengths) {
   const auto exponent_of = [](const glm::dmat3& m) {
     const double largest = std::max({max_abs(m[0]), max_abs(m[1]), max_abs(m[2])});

@@ -1,4 +1,4 @@
-// What carries a draw's lights and vertices into eye space, where lighting happens.
+// Transforms of lights and vertices into eye space, where lighting happens.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -9,12 +9,14 @@
 
 namespace tessera::detail {
 
-/// A light however far away: its squared distance from what is within 2^62 of the eye is a float. Its
-/// position is xyz/w after the view, too, which may project (w = 0 counts as 1); a directional light is one
-/// under every view.
+/// A light in eye space.
+/// - Distances are limited so that the squared distance to points within 2^62 of the eye is a finite float.
+/// - The view may be a projection: the position is xyz/w after it (w = 0 counts as 1). Directional lights
+/// stay
+///   directional.
 EyeLight eye_light(const Light& light, const glm::dmat4& view);
 
-/// For normals by the inverse transpose, of the lengths that the draw wants.
+/// Normals are transformed by the inverse transpose; `lengths` selects their lengths.
 EyeTransform eye_transform(const glm::dmat4& eye_from_object, const NormalLengths& lengths);
 
 }  // namespace tessera::detail

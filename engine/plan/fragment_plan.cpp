@@ -27,7 +27,7 @@ void plan_stencil(FragmentPlan& plan, const StencilState& state, int bits) {
   ops.stencil = plan.uses_stencil = !does_nothing(ops.faces[0]) || !does_nothing(ops.faces[1]);
 }
 
-// Takes the source as it is.
+// The blend yields the source colour.
 bool is_replacing(const FragmentOps& ops) {
   return ops.src_color == BlendFactor::one && ops.src_alpha == BlendFactor::one &&
          ops.dst_color == BlendFactor::zero && ops.dst_alpha == BlendFactor::zero &&
@@ -44,17 +44,21 @@ void plan_blend(FragmentOps& ops, const BlendState& state) {
   ops.blend = !is_replacing(ops);
 }
 
+int pattern_size(Dither dither) {
+  switch (dither) {
+    case Dither::none: return 1;
+    case Dither::bayer2: return 2;
+    case Dither::bayer4: return 4;
+    case Dither::bayer8: return 8;
+  }
+  return 8;
+}
+
 }  // namespace
 
 FragmentOps dither_ops(const FrameBufferState& target) {
   FragmentOps ops;
-  const Dither dither = target.format.dither;
-  set_dither(ops,
-             dither == Dither::none     ? 1
-             : dither == Dither::bayer2 ? 2
-             : dither == Dither::bayer4 ? 4
-                                        : 8,
-             target.format.height);
+  set_dither(ops, pattern_size(target.format.dither), target.format.height);
   if (target.layout.index)
     ops.palette_spread = static_cast<float>(
         1 / std::fmax(1.0, std::cbrt(static_cast<double>(target.palette.entries.size())) - 1));
@@ -62,35 +66,36 @@ FragmentOps dither_ops(const FrameBufferState& target) {
 }
 
 FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color,
-                            bool only_indices, std::string* reasons) {
+                            bool only_indices, const EffectNotes& notes) {
   FragmentPlan plan;
   FragmentOps& ops = plan.ops;
-  const auto note = [&](const char* line) {
-    if (reasons) *reasons += std::string("  ") + line + "\n";
-  };
   if (writes_color && !only_indices) ops = dither_ops(target);
   if (state.alpha_test) {
     ops.alpha_func = state.alpha_test->func;
     ops.alpha_reference = state.alpha_test->ref;
     ops.alpha_test = ops.alpha_func != Compare::always;
-    note(ops.alpha_test ? "alpha test" : "alpha test: always passes, left out");
+    if (ops.alpha_test) notes.active(Effect::alpha_test);
+    else notes.skipped(Effect::alpha_test, EffectReason::always_passes);
   }
   if (state.stencil) {
     plan_stencil(plan, *state.stencil, target.format.stencil_bits);
-    note(ops.stencil ? "stencil test" : "stencil: always passes and writes nothing, left out");
+    if (ops.stencil) notes.active(Effect::stencil_test);
+    else notes.skipped(Effect::stencil_test, EffectReason::passes_and_writes_nothing);
   }
   if (writes_color && state.blend) {
     plan_blend(ops, *state.blend);
-    note(ops.blend ? "blending" : "blending: replaces what was there, left out");
+    if (ops.blend) notes.active(Effect::blending);
+    else notes.skipped(Effect::blending, EffectReason::replaces_destination);
   }
-  if (writes_color && ops.dither) note("ordered dither");
-  if (writes_color && only_indices && target.format.dither != Dither::none) note("indices are not dithered");
+  if (writes_color && ops.dither) notes.active(Effect::dither);
+  if (writes_color && only_indices && target.format.dither != Dither::none)
+    notes.skipped(Effect::dither, EffectReason::stores_indices);
   if (writes_color && state.logic_op != LogicOp::copy) {
     ops.logic = state.logic_op;
-    note("logic operation");
+    notes.active(Effect::logic_op);
   }
   const bool stores_alpha = writes_color && target.layout.alpha_bits > 0;
-  if (stores_alpha) note("alpha planes");
+  if (stores_alpha) notes.active(Effect::alpha_planes);
   const bool depends_on_color =
       ops.alpha_test || ops.blend || ops.dither || ops.logic != LogicOp::copy || stores_alpha;
   plan.needed = ops.stencil || depends_on_color;

@@ -1,12 +1,11 @@
-// A recorded frame as the tiles will run it: draws with their memory, clears in words, accumulations, and
-// what becomes of each buffer.
+// A recorded frame as the stages run it: draws with their memory, clears as stored words, accumulations, and
+// the load and store operations of the attachments.
 #pragma once
 
-#include <array>
 #include <deque>
-#include <span>
 #include <vector>
 
+#include "engine/plan/attachment_ops.h"
 #include "engine/plan/draw_plan.h"
 #include "engine/record/recording.h"
 #include "engine/runtime/worker_pool.h"
@@ -15,58 +14,30 @@
 
 namespace tessera::detail {
 
-/// How a buffer goes through a frame.
-struct AttachmentOps {
-  bool used = false;     ///< tiles work on it
-  bool touched = false;  ///< a command changes it
-  bool load = false;     ///< tiles start from what the frame buffer holds
-  bool store = false;    ///< tiles end in the planes
-  bool keep = false;
-  /// The whole buffer ends as one word that no pixel of a draw can have changed: nothing is stored.
-  bool ends_fast_cleared = false;
-  std::array<std::uint32_t, 4> clear_values{};  ///< of each of the buffer's attachments
-};
-
-/// Used for one frame after the other: its memory is kept.
+/// Memory is kept from frame to frame.
 struct FrameCommands {
-  std::vector<DrawPlan> plan_memory;   ///< of each recorded draw; and, from frames before, of more
-  std::vector<const DrawPlan*> plans;  ///< of draws that can change something
-  std::vector<std::size_t> plan_draw;  ///< the recorded draw of each plan
-  /// The tiles' first draw of each plan, and one past the last: polygons that are not all filled are several.
+  std::vector<DrawPlan> plan_memory;   ///< per recorded draw; may hold more, of earlier frames
+  std::vector<const DrawPlan*> plans;  ///< plans of draws that can change a pixel
+  std::vector<std::size_t> plan_draw;  ///< per plan: its recorded draw
+  /// Per plan, and one past the last: its first tile draw. Polygons with several polygon modes have several.
   std::vector<std::uint32_t> first_tile_draw;
   std::vector<GeometryDraw> geometry;
   std::vector<TileDraw> tile_draws;
-  std::vector<std::size_t> tile_draw_plan;  ///< of each
+  std::vector<std::size_t> tile_draw_plan;  ///< per tile draw: its plan
   std::vector<TileClear> clears;
   std::vector<TileAccumulation> accumulations;
-  std::vector<std::uint32_t>
-      first_plan_at;  ///< of each recorded draw, and one past the last: the first plan from there on
-  std::vector<std::uint32_t> clears_until;  ///< of each recorded clear, likewise
-  AttachmentOps color, depth, stencil, accumulation;
+  std::vector<std::uint32_t> first_plan_at;  ///< per recorded draw, and one past the last: the next plan
+  std::vector<std::uint32_t> clears_until;   ///< per recorded clear, and one past the last: the next clear
+  FrameAttachments attachments;
 
   void reset();
-
-  bool stores() const { return color.store || depth.store || stencil.store || accumulation.store; }
-  const AttachmentOps& attachment_ops(Buffer which) const {
-    switch (which) {
-      case Buffer::color: return color;
-      case Buffer::depth: return depth;
-      case Buffer::stencil: return stencil;
-      default: return accumulation;
-    }
-  }
 };
 
-/// Plans every draw that can change a pixel and every clear that can matter. `presented`: the colour goes to
-/// an image too. Throws Error where a buffer that the frame needs was not kept by the frame before.
-/// @param commands  are replaced
+/// Plans every draw, clear and accumulation that can change a pixel.
+/// @param commands   is replaced
+/// @param presented  the colour goes to an image, too
+/// @throws Error  if the frame loads a buffer that the frame before did not keep
 void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented,
                 std::deque<DrawBuffers>& buffers, WorkerPool& worker_pool);
-
-/// The styles in which a plan's elements are drawn, in the order of its tile draws; none: as they are.
-std::span<const PolygonMode> styles_of(const DrawPlan& plan);
-
-/// Fills in the tiles' view of the draws; after the vertex stage's memory is there.
-void build_tile_draws(FrameCommands& commands);
 
 }  // namespace tessera::detail

@@ -1,7 +1,5 @@
 #include "engine/plan/pixel_plan.h"
 
-#include <cstdio>
-
 #include "shading/fragment_scalar.h"
 
 namespace tessera::detail {
@@ -15,7 +13,7 @@ void plan_pixel_places(DrawPlan& plan, const RecordedPixels& pixels, const Frame
         depth_key_from_stored(target.depth_format, quantize_depth(target.depth_format, pixels.depth));
 }
 
-void plan_pixel_colors(DrawPlan& plan, const RecordedPixels& pixels, std::string* reasons) {
+void plan_pixel_colors(DrawPlan& plan, const RecordedPixels& pixels, const EffectNotes& notes) {
   const PixelRectangle& texels = pixels.rectangle;
   const bool is_bitmap = texels.channels == 0;
   plan.source = plan.write_mask == 0 ? ColorSource::none
@@ -23,17 +21,14 @@ void plan_pixel_colors(DrawPlan& plan, const RecordedPixels& pixels, std::string
                                      : ColorSource::texels;
   plan.constant_color = {clamp_unit(pixels.color.r), clamp_unit(pixels.color.g), clamp_unit(pixels.color.b)};
   plan.alpha[0] = plan.alpha[1] = clamp_unit(pixels.color.a);
-  if (!reasons) return;
-  const char* const colors = plan.source == ColorSource::none ? "no colour plane changes"
-                             : is_bitmap                      ? "one colour"
-                                                              : "each pixel has the colour of its texel";
-  char line[128];
-  if (is_bitmap)
-    std::snprintf(line, sizeof line, "  a bitmap of %d x %d: %s\n", texels.width, texels.height, colors);
-  else
-    std::snprintf(line, sizeof line, "  an image of %d x %d, %d channel%s: %s\n", texels.width, texels.height,
-                  texels.channels, texels.channels == 1 ? "" : "s", colors);
-  *reasons += line;
+  EffectReason colors = is_bitmap ? EffectReason::per_draw : EffectReason::per_texel;
+  if (plan.source == ColorSource::none) colors = EffectReason::no_color_stored;
+  notes.add({.effect = is_bitmap ? Effect::bitmap : Effect::image,
+             .active = plan.source != ColorSource::none,
+             .reason = colors,
+             .width = texels.width,
+             .height = texels.height,
+             .channels = texels.channels});
 }
 
 }  // namespace tessera::detail

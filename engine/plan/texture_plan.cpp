@@ -5,34 +5,7 @@
 namespace tessera::detail {
 namespace {
 
-const char* name_of(TextureEnv env) {
-  switch (env) {
-    case TextureEnv::modulate: return "modulates";
-    case TextureEnv::replace: return "replaces";
-    case TextureEnv::decal: return "decal";
-    case TextureEnv::blend: return "blends";
-    default: return "adds";
-  }
-}
-
-const char* name_of(TextureFilter filter) {
-  switch (filter) {
-    case TextureFilter::nearest: return "nearest";
-    case TextureFilter::linear: return "linear";
-    case TextureFilter::nearest_mipmap_nearest: return "nearest_mipmap_nearest";
-    case TextureFilter::linear_mipmap_nearest: return "linear_mipmap_nearest";
-    case TextureFilter::nearest_mipmap_linear: return "nearest_mipmap_linear";
-    default: return "linear_mipmap_linear";
-  }
-}
-
-std::string described(const TextureState& texture) {
-  const TextureLevel& level = texture.levels.level[0];
-  return std::to_string(level.width) + "x" + std::to_string(level.height) + ", " +
-         std::to_string(texture.channels) + (texture.channels == 1 ? " channel" : " channels");
-}
-
-// One texel everywhere leaves all that is needed of every colour as it is.
+// A texture of one colour leaves the components that matter unchanged.
 bool changes_nothing(const DrawTexture& texture, bool color_matters, bool alpha_matters) {
   const auto [r, g, b, a] = texture.texel;
   const bool white = r == 1 && g == 1 && b == 1, black = r == 0 && g == 0 && b == 0;
@@ -49,11 +22,8 @@ bool changes_nothing(const DrawTexture& texture, bool color_matters, bool alpha_
 
 }  // namespace
 
-TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, std::string* reasons) {
+TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, const EffectNotes& notes) {
   TexturePlan plan;
-  const auto note = [&](const char* line) {
-    if (reasons) (*reasons += "  texture").append(line) += "\n";
-  };
   if (draw.texture == nullptr) return plan;
   const TextureState& state = *draw.texture;
   DrawTexture& texture = plan.texture;
@@ -62,25 +32,24 @@ TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, st
   const Color& c = draw.state.texture_env_color;
   texture.constant = {clamp_unit(c.r), clamp_unit(c.g), clamp_unit(c.b)};
   if (!needs.colors && !(needs.alpha && texture.changes_alpha())) {
-    note(draw.state.alpha_test ? " left out: no colour is stored, and alpha stays what it is"
-                               : " left out: no colour is stored, or indices are");
+    notes.skipped(Effect::texture, EffectReason::color_and_alpha_unused);
     return plan;
   }
   if (state.one_color || !draw.mesh.texcoords) {
     texture.texel = state.one_color ? *state.one_color : state.at_origin;
-    if (!state.one_color) note(": the mesh has no texture coordinates");
+    if (!state.one_color) notes.skipped(Effect::texture_coordinates, EffectReason::not_in_mesh);
     if (changes_nothing(texture, needs.colors, needs.alpha))
-      note(": one colour that changes nothing, left out");
+      notes.skipped(Effect::texture, EffectReason::no_effect);
     else plan.use = TexturePlan::Use::one_color;
     return plan;
   }
   plan.use = TexturePlan::Use::texels;
   texture.levels = &state.levels;
-  if (reasons)
-    note((" " + described(state) + ", " + name_of(draw.state.texture_env) + ", " +
-          name_of(state.sampler.mag) + " and " + name_of(state.sampler.min) +
-          (state.levels.needs_footprint() ? ", level of detail from derivatives" : ""))
-             .c_str());
+  notes.add({.effect = Effect::texture,
+             .width = state.levels.level[0].width,
+             .height = state.levels.level[0].height,
+             .channels = state.channels});
+  if (state.levels.needs_footprint()) notes.active(Effect::texture_lod);
   return plan;
 }
 

@@ -1,32 +1,32 @@
-// What a draw's texture comes to: nothing, a colour that is worked into the vertices' colours, or texels at
-// each pixel.
+// Use of a draw's texture: none, one colour that is folded into the colours of the draw, or texels per pixel.
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "engine/record/recording.h"
+#include "shading/effect_notes.h"
 #include "shading/texture.h"
 
 namespace tessera::detail {
 
 struct TexturePlan {
   enum class Use : std::uint8_t { none, one_color, texels } use = Use::none;
-  DrawTexture texture;  ///< but for the attribute
+  DrawTexture texture;  ///< complete except for the attribute
 
-  /// One colour changes colours in a way that may come before they are interpolated, where none is
-  /// extrapolated and cut: all but a sum that is cut at 1.
+  /// One colour that may be applied before interpolation, if no colour is extrapolated and clamped: every
+  /// function but add, whose sum is clamped at 1.
   bool is_affine() const { return use == Use::one_color && texture.function != TextureEnv::add; }
 };
 
-/// What a draw has texels for.
+/// Results of texturing that a draw uses.
 struct TextureNeeds {
-  bool colors = true;  ///< of some face are colours, not indices, and stored
-  bool alpha = false;  ///< is looked at: by the alpha test, by blending, or stored
+  bool colors = true;  ///< a face stores colours, not indices
+  bool alpha = false;  ///< alpha is tested, blended with, or stored
 };
 
-/// @param reasons  if given, receives lines about what is used of the texture, or why it is left out; none
-/// yet about one colour that is used
-TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, std::string* reasons);
+/// @param notes  receives the use of the texels, or why they are skipped; the caller notes the use of a
+/// single
+///               colour
+TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, const EffectNotes& notes);
 
 }  // namespace tessera::detail

@@ -12,7 +12,8 @@ void require_all_finite(const FieldName& name, const Values& values) {
   const auto odd =
       std::find_if(std::begin(values), std::end(values), [](double v) { return !std::isfinite(v); });
   if (odd != std::end(values))
-    throw Error(name.text() + " holds " + format_number(*odd) + ", must be finite");
+    throw Error(ErrorCode::invalid_argument,
+                name.text() + " holds " + format_number(*odd) + ", must be finite");
 }
 
 }  // namespace
@@ -31,19 +32,21 @@ void require_finite(const FieldName& name, const Matrix& matrix) { require_all_f
 
 void require_range(const FieldName& name, double value, double low, double high) {
   if (!(value >= low && value <= high))
-    throw Error(name.text() + " is " + format_number(value) + ", must be " + format_number(low) + " to " +
-                format_number(high));
+    throw Error(ErrorCode::invalid_argument, name.text() + " is " + format_number(value) + ", must be " +
+                                                 format_number(low) + " to " + format_number(high));
 }
 
 void check_rect(const FieldName& name, const Rect& rect) {
   if (rect.width < 0 || rect.height < 0)
-    throw Error(name.text() + " is " + std::to_string(rect.width) + " x " + std::to_string(rect.height) +
-                " pixels, must not be negative");
+    throw Error(ErrorCode::invalid_argument, name.text() + " is " + std::to_string(rect.width) + " x " +
+                                                 std::to_string(rect.height) +
+                                                 " pixels, must not be negative");
 }
 
 void throw_invalid_enum(const FieldName& name, unsigned value, unsigned last) {
-  throw Error(name.text() + " is " + std::to_string(value) + ", which stands for nothing, must be 0 to " +
-              std::to_string(last));
+  throw Error(ErrorCode::invalid_argument, name.text() + " is " + std::to_string(value) +
+                                               ", not a valid enumerator; must be 0 to " +
+                                               std::to_string(last));
 }
 
 namespace {
@@ -71,12 +74,15 @@ void check_color_mask(const char* function, const std::array<bool, 4>& mask, con
                            : target.layout.luminance ? "a buffer of 1 or 2 bits has luminance alone"
                                                      : nullptr;
   if (held)
-    throw Error(std::string(function) + ": the colour mask differs between components, " + held +
-                ": all or none");
+    throw Error(
+        ErrorCode::incompatible_format,
+        std::string(function) + ": the colour mask differs between components, " + held + ": all or none");
 }
 
 void check_fragment_state(const char* function, const DrawState& s, const FrameBufferState& target) {
-  const auto refuse = [&](const char* reason) { throw Error(std::string(function) + ": " + reason); };
+  const auto refuse = [&](ErrorCode code, const char* reason) {
+    throw Error(code, std::string(function) + ": " + reason);
+  };
   if (s.scissor) check_rect({function, ": scissor"}, *s.scissor);
   check_color_mask(function, s.color_mask, target);
   require_enum({function, ": depth.test"}, s.depth.test, Compare::always);
@@ -84,19 +90,24 @@ void check_fragment_state(const char* function, const DrawState& s, const FrameB
   const bool is_index = target.layout.index;
   if (s.alpha_test) {
     if (is_index)
-      refuse("an alpha test is asked for, but the frame buffer holds indices, which have no alpha");
+      refuse(ErrorCode::incompatible_format,
+             "an alpha test is asked for, but the frame buffer holds indices, which have no alpha");
     require_enum({function, ": alpha_test.func"}, s.alpha_test->func, Compare::always);
     require_range({function, ": alpha_test.ref"}, s.alpha_test->ref, 0, 1);
   }
   if (s.blend) {
-    if (is_index) refuse("blending is asked for, but the frame buffer holds indices, which do not blend");
+    if (is_index)
+      refuse(ErrorCode::incompatible_format,
+             "blending is asked for, but the frame buffer holds indices, which do not blend");
     if (s.logic_op != LogicOp::copy)
-      refuse("blending and a logic operation are asked for; a draw has one of them");
+      refuse(ErrorCode::invalid_argument,
+             "blending and a logic operation are asked for; a draw has one of them");
     check_blend(function, *s.blend);
   }
   if (s.stencil) {
     if (target.format.stencil_bits == 0)
-      refuse("a stencil test is asked for, but the frame buffer has no stencil buffer");
+      refuse(ErrorCode::incompatible_format,
+             "a stencil test is asked for, but the frame buffer has no stencil buffer");
     check_stencil_face(function, s.stencil->front);
     if (s.stencil->back) check_stencil_face(function, *s.stencil->back);
   }

@@ -1,4 +1,4 @@
-// Checks of what callers hand over, and the words for what is wrong with it.
+// Argument checks, and the texts of their errors.
 #pragma once
 
 #include <initializer_list>
@@ -10,7 +10,7 @@ namespace tessera::detail {
 
 std::string format_number(double value);
 
-// Names are put together where something is wrong only: a frame has thousands of draws.
+// Names are concatenated only for an error: frames have thousands of draws.
 struct FieldName {
   const char* owner;
   const char* field = "";
@@ -22,18 +22,17 @@ void require_finite(const FieldName& name, const Matrix& matrix);
 void require_range(const FieldName& name, double value, double low, double high);
 void check_rect(const FieldName& name, const Rect& rect);
 [[noreturn]] void throw_invalid_enum(const FieldName& name, unsigned value, unsigned last);
-/// An enumerator, which count from 0 to `last`: whoever casts numbers, or calls from another language, may
-/// have others.
+/// Checks that `value` is an enumerator, 0 to `last`. Casts and foreign languages may pass other values.
 template <class Enum>
 void require_enum(const FieldName& name, Enum value, Enum last) {
   if (static_cast<unsigned>(value) > static_cast<unsigned>(last))
     throw_invalid_enum(name, static_cast<unsigned>(value), static_cast<unsigned>(last));
 }
 
-/// What the fragments of a draw go through, in a buffer that can have it. @param function  whose it is, for
-/// messages
+/// Checks the fragment operations of a draw against the format of the frame buffer.
+/// @param function  named in errors
 void check_fragment_state(const char* function, const DrawState& state, const FrameBufferState& target);
-/// Components that a buffer cannot tell apart.
+/// Checks that a mask does not separate components that the frame buffer stores together.
 void check_color_mask(const char* function, const std::array<bool, 4>& mask, const FrameBufferState& target);
 
 }  // namespace tessera::detail

@@ -1,4 +1,4 @@
-// Recording: everything is checked here, before a pixel is touched.
+// Recording of frames. All arguments are checked here.
 #include "engine/tessera/tessera.hpp"
 
 #include <algorithm>
@@ -6,9 +6,11 @@
 #include <string>
 
 #include "engine/plan/draw_plan.h"
+#include "engine/plan/explain_text.h"
 #include "engine/record/checks.h"
 #include "engine/record/planar_shadow.h"
 #include "engine/record/recording.h"
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/out_of_memory.h"
 #include "engine/runtime/renderer_state.h"
 #include "engine/runtime/worker_pool.h"
@@ -42,12 +44,13 @@ void check_light(std::size_t number, const Light& l) {
                    {l.attenuation_constant, l.attenuation_linear, l.attenuation_quadratic});
     require_range({"", "spot_exponent"}, l.spot_exponent, 0, 16384);
     if (l.spot_cutoff != 180 && !(l.spot_cutoff >= 0 && l.spot_cutoff <= 90))
-      throw Error("spot_cutoff is " + format_number(l.spot_cutoff) + ", must be 0 to 90, or 180");
+      throw Error(ErrorCode::invalid_argument,
+                  "spot_cutoff is " + format_number(l.spot_cutoff) + ", must be 0 to 90, or 180");
   };
   try {
     check();
   } catch (const Error& error) {
-    throw Error("Frame::set_lights: light " + std::to_string(number) + "." + error.what());
+    throw Error(error.code(), "Frame::set_lights: light " + std::to_string(number) + "." + error.what());
   }
 }
 
@@ -77,24 +80,26 @@ void check_state(const DrawState& s) {
 
 void check_size(const char* name, float size) {
   if (std::isfinite(size) && size > 0) return;
-  throw Error("Frame::draw: " + std::string(name) + " is " + format_number(size) +
-              ", must be a finite number above 0");
+  throw Error(ErrorCode::invalid_argument, "Frame::draw: " + std::string(name) + " is " +
+                                               format_number(size) + ", must be a finite number above 0");
 }
 
-// Of points, lines and outlines, and where polygons lie in depth.
+// Sizes of points and lines, and polygon offset.
 void check_shape(const DrawState& s, const FrameBufferState& target) {
   check_size("point_size", s.point_size);
   check_size("line_width", s.line_width);
   require_finite({"Frame::draw: polygon_offset"}, {s.polygon_offset.factor, s.polygon_offset.units});
   if ((s.polygon_offset.factor != 0 || s.polygon_offset.units != 0) &&
       target.depth_format == DepthFormat::none)
-    throw Error("Frame::draw: a polygon offset is asked for, but the frame buffer has no depth buffer");
+    throw Error(ErrorCode::incompatible_format,
+                "Frame::draw: a polygon offset is asked for, but the frame buffer has no depth buffer");
 }
 
 const TextureState* check_texture(const DrawState& s, const TextureState* state) {
   require_enum({"Frame::draw: texture_env"}, s.texture_env, TextureEnv::add);
   require_finite({"Frame::draw: texture_env_color"}, s.texture_env_color);
-  if (s.texture != nullptr && state == nullptr) throw Error("Frame::draw: the texture was moved from");
+  if (s.texture != nullptr && state == nullptr)
+    throw Error(ErrorCode::invalid_state, "Frame::draw: the texture was moved from");
   return state;
 }
 
@@ -107,18 +112,17 @@ void change(FrameRecording& recording, const char* function, const Change& edit)
 
 Frame::Frame(FrameBuffer& target)
     : recording_(translate_bad_alloc("Frame", [] { return std::make_unique<FrameRecording>(); })) {
-  if (!target.state_) throw Error("Frame: the frame buffer was moved from");
+  if (!target.state_) throw Error(ErrorCode::invalid_state, "Frame: the frame buffer was moved from");
   recording_->target = target.state_.get();
 }
 Frame::Frame(FrameBuffer& target, Renderer& helper) : Frame(target) {
-  if (!helper.state_) throw Error("Frame: the renderer was moved from");
+  if (!helper.state_) throw Error(ErrorCode::invalid_state, "Frame: the renderer was moved from");
   recording_->workers = &helper.state_->worker_pool;
 }
 Frame::~Frame() = default;
 Frame::Frame(Frame&&) noexcept = default;
 Frame& Frame::operator=(Frame&&) noexcept = default;
 
-// Comparisons and products, too, belong in a mode of our own: in the caller's a NaN may be a trap.
 void Frame::set_camera(const Camera& camera) {
   const FloatingPointMode mode;
   require_finite({"Frame::set_camera: view"}, camera.view);
@@ -148,27 +152,33 @@ void Frame::clear(const Clear& clear) {
       require_range({"Frame::clear: a component of color"}, c, 0, 1);
   if (clear.index) {
     if (!target.layout.index)
-      throw Error("Frame::clear: an index is given, but the frame buffer's colour mode is rgb");
+      throw Error(ErrorCode::incompatible_format,
+                  "Frame::clear: an index is given, but the frame buffer's colour mode is rgb");
     if (*clear.index > target.layout.value_mask())
-      throw Error("Frame::clear: the index is " + std::to_string(*clear.index) + ", must be at most " +
-                  std::to_string(target.layout.value_mask()));
+      throw Error(ErrorCode::invalid_argument, "Frame::clear: the index is " + std::to_string(*clear.index) +
+                                                   ", must be at most " +
+                                                   std::to_string(target.layout.value_mask()));
   }
   if (clear.depth) {
     if (target.depth_format == DepthFormat::none)
-      throw Error("Frame::clear: a depth is given, but the frame buffer has no depth buffer");
+      throw Error(ErrorCode::incompatible_format,
+                  "Frame::clear: a depth is given, but the frame buffer has no depth buffer");
     require_range({"Frame::clear: depth"}, *clear.depth, 0, 1);
   }
   if (clear.stencil) {
     const int bits = target.format.stencil_bits;
     if (bits == 0)
-      throw Error("Frame::clear: a stencil value is given, but the frame buffer has no stencil buffer");
+      throw Error(ErrorCode::incompatible_format,
+                  "Frame::clear: a stencil value is given, but the frame buffer has no stencil buffer");
     if (*clear.stencil >= 1u << bits)
-      throw Error("Frame::clear: the stencil value is " + std::to_string(*clear.stencil) +
-                  ", must be at most " + std::to_string((1u << bits) - 1));
+      throw Error(ErrorCode::invalid_argument, "Frame::clear: the stencil value is " +
+                                                   std::to_string(*clear.stencil) + ", must be at most " +
+                                                   std::to_string((1u << bits) - 1));
   }
   if (clear.accumulation) {
     if (target.format.accumulation_bits == 0)
       throw Error(
+          ErrorCode::incompatible_format,
           "Frame::clear: an accumulation colour is given, but the frame buffer has no accumulation buffer");
     const Color& c = *clear.accumulation;
     for (const float component : {c.r, c.g, c.b, c.a})
@@ -184,9 +194,11 @@ void Frame::accumulate(const Accum& accum) {
   const FloatingPointMode mode;
   const FrameBufferState& target = *recording_->target;
   if (target.layout.index)
-    throw Error("Frame::accumulate: the frame buffer holds indices, which do not accumulate");
+    throw Error(ErrorCode::incompatible_format,
+                "Frame::accumulate: the frame buffer holds indices, which do not accumulate");
   if (target.format.accumulation_bits == 0)
-    throw Error("Frame::accumulate: the frame buffer has no accumulation buffer");
+    throw Error(ErrorCode::incompatible_format,
+                "Frame::accumulate: the frame buffer has no accumulation buffer");
   require_enum({"Frame::accumulate: op"}, accum.op, AccumOp::return_color);
   require_finite({"Frame::accumulate: value"}, {accum.value});
   if (accum.scissor) check_rect({"Frame::accumulate: scissor"}, *accum.scissor);
@@ -222,8 +234,9 @@ void Frame::capture(const Capture& capture) {
   const std::size_t pixels = static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
   const auto require_size = [&](const char* what, std::size_t found, std::size_t needed) {
     if (found != 0 && found != needed)
-      throw Error(std::string("Frame::capture: the span for ") + what + " holds " + std::to_string(found) +
-                  " elements, the frame buffer needs " + std::to_string(needed));
+      throw Error(ErrorCode::invalid_argument,
+                  std::string("Frame::capture: the span for ") + what + " holds " + std::to_string(found) +
+                      " elements, the frame buffer needs " + std::to_string(needed));
   };
   require_size("draw_ids", capture.draw_ids.size(), pixels);
   require_size("primitive_ids", capture.primitive_ids.size(), pixels);
@@ -235,17 +248,23 @@ void Frame::reset() noexcept { recording_->clear(); }
 
 std::size_t Frame::draw_count() const noexcept { return recording_->draws.size(); }
 
-std::string Frame::explain(std::size_t draw_index) const {
+std::vector<EffectNote> Frame::effects(std::size_t draw_index) const {
   if (draw_index >= recording_->draws.size())
-    throw Error("Frame::explain: draw " + std::to_string(draw_index) + " is asked for, the frame has " +
-                std::to_string(recording_->draws.size()) + " draws, counted from 0");
-  return translate_bad_alloc("Frame::explain", [&] {
+    throw Error(ErrorCode::invalid_argument,
+                "Frame::effects: draw " + std::to_string(draw_index) + " is asked for, the frame has " +
+                    std::to_string(recording_->draws.size()) + " draws, counted from 0");
+  return translate_bad_alloc("Frame::effects", [&] {
     const FloatingPointMode mode;
-    std::string reasons;
+    std::vector<EffectNote> notes;
     DrawPlan plan;
-    plan_draw(plan, recording_->draws[draw_index], *recording_->target, false, &reasons);
-    return reasons;
+    plan_draw(plan, recording_->draws[draw_index], *recording_->target, false, EffectNotes(&notes));
+    return notes;
   });
+}
+
+std::string Frame::explain(std::size_t draw_index) const {
+  const std::vector<EffectNote> notes = effects(draw_index);
+  return translate_bad_alloc("Frame::explain", [&] { return explain_text(notes); });
 }
 
 }  // namespace tessera

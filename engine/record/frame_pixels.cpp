@@ -1,9 +1,10 @@
-// Recording of bitmaps and images: checked here, before a pixel is touched.
+// Recording of bitmaps and images. All arguments are checked here.
 #include <cmath>
 #include <string>
 
 #include "engine/record/checks.h"
 #include "engine/record/recording.h"
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/out_of_memory.h"
 #include "engine/runtime/worker_pool.h"
 
@@ -11,29 +12,18 @@ namespace tessera {
 using namespace detail;
 namespace {
 
-DrawState draw_state(const FragmentState& s) {
-  DrawState state;
-  state.depth = s.depth;
-  state.alpha_test = s.alpha_test;
-  state.stencil = s.stencil;
-  state.blend = s.blend;
-  state.logic_op = s.logic_op;
-  state.color_mask = s.color_mask;
-  state.plane_mask = s.plane_mask;
-  state.scissor = s.scissor;
-  return state;
-}
-
-// What bitmaps and images have in common. `row_bytes` are those that a row needs.
+// Checks common to bitmaps and images. @param row_bytes  minimum size of a row
 void check_pixels(const char* function, RecordedPixels& pixels, const char* memory, std::int64_t row_bytes) {
   PixelRectangle& texels = pixels.rectangle;
   require_range({function, ": width"}, texels.width, 1, kMaxFrameBufferSize);
   require_range({function, ": height"}, texels.height, 1, kMaxFrameBufferSize);
-  if (texels.top_row == nullptr) throw Error(std::string(function) + ": " + memory + " is null");
+  if (texels.top_row == nullptr)
+    throw Error(ErrorCode::invalid_argument, std::string(function) + ": " + memory + " is null");
   if (texels.stride_bytes == 0) texels.stride_bytes = static_cast<std::ptrdiff_t>(row_bytes);
   if (texels.height > 1 && texels.stride_bytes < row_bytes && texels.stride_bytes > -row_bytes)
-    throw Error(std::string(function) + ": stride_bytes is " + std::to_string(texels.stride_bytes) +
-                ", a row takes " + std::to_string(row_bytes) + " bytes");
+    throw Error(ErrorCode::invalid_argument, std::string(function) + ": stride_bytes is " +
+                                                 std::to_string(texels.stride_bytes) + ", a row takes " +
+                                                 std::to_string(row_bytes) + " bytes");
   require_finite({function, ": position"}, {texels.x, texels.y});
   require_range({function, ": depth"}, pixels.depth, 0, 1);
 }

@@ -1,5 +1,4 @@
-// Matrices and projections of the public interface. The same bits in whatever floating-point mode the caller
-// is.
+// Matrices and projections of the public API. The results do not depend on the caller's floating-point mode.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "engine/record/checks.h"
 #include "engine/record/matrix.h"
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/worker_pool.h"
 #include "engine/tessera/tessera.hpp"
 #include "shading/trigonometry.h"
@@ -67,8 +67,9 @@ Matrix rotate(double degrees, double x, double y, double z) {
   x = axis.x, y = axis.y, z = axis.z;
   const double length = std::sqrt(x * x + y * y + z * z);
   if (!(length > 0) || !std::isfinite(length))
-    throw Error("rotate: the axis has no direction, it must be a finite vector other than 0 0 0");
-  if (!std::isfinite(degrees)) throw Error("rotate: the angle is not finite");
+    throw Error(ErrorCode::invalid_argument,
+                "rotate: the axis has no direction, it must be a finite vector other than 0 0 0");
+  if (!std::isfinite(degrees)) throw Error(ErrorCode::invalid_argument, "rotate: the angle is not finite");
   x /= length, y /= length, z /= length;
   const auto [s, c] = sine_cosine(degrees);
   const double t = 1 - c;
@@ -85,11 +86,13 @@ Matrix look_at(Vec3 eye, Vec3 target, Vec3 up) {
   const double span = glm::length(glm::cross(t - e, u));
   if (!(span > 0) || !std::isfinite(span))
     throw Error(
+        ErrorCode::invalid_argument,
         "look_at: eye, target and up do not span a frame; eye and target must differ, and up must not lie "
         "along the view");
   const Matrix matrix = from_glm(glm::lookAtRH(e, t, u));
   if (!std::all_of(matrix.m.begin(), matrix.m.end(), [](double element) { return std::isfinite(element); }))
-    throw Error("look_at: eye and target are too far apart, or too near, for their distance to be a number");
+    throw Error(ErrorCode::invalid_argument,
+                "look_at: eye and target are too far apart, or too near, for their distance to be a number");
   return matrix;
 }
 
@@ -98,31 +101,35 @@ namespace {
 void require_span(const char* function, const char* low_name, double low, const char* high_name,
                   double high) {
   if (!std::isfinite(low) || !std::isfinite(high) || low == high)
-    throw Error(std::string(function) + ": " + low_name + " is " + std::to_string(low) + " and " + high_name +
-                " is " + std::to_string(high) + ", they must be finite and differ");
+    throw Error(ErrorCode::invalid_argument, std::string(function) + ": " + low_name + " is " +
+                                                 std::to_string(low) + " and " + high_name + " is " +
+                                                 std::to_string(high) + ", they must be finite and differ");
 }
 
 void require_depths(const char* function, double near, double far, bool infinite_allowed) {
   const bool far_ok = std::isfinite(far) || (infinite_allowed && far > 0 && !std::isnan(far));
   if (!std::isfinite(near) || !far_ok || near == far)
-    throw Error(std::string(function) + ": near is " + std::to_string(near) + " and far is " +
-                std::to_string(far) + ", they must be finite and differ" +
-                (infinite_allowed ? " (far may be infinity)" : ""));
+    throw Error(ErrorCode::invalid_argument, std::string(function) + ": near is " + std::to_string(near) +
+                                                 " and far is " + std::to_string(far) +
+                                                 ", they must be finite and differ" +
+                                                 (infinite_allowed ? " (far may be infinity)" : ""));
 }
 
 void require_positive_depths(const char* function, double near, double far) {
   if (!(near > 0) || !(far > 0))
-    throw Error(std::string(function) + ": near is " + std::to_string(near) + " and far is " +
-                std::to_string(far) + ", both must be above 0");
+    throw Error(ErrorCode::invalid_argument, std::string(function) + ": near is " + std::to_string(near) +
+                                                 " and far is " + std::to_string(far) +
+                                                 ", both must be above 0");
 }
 
-// Finite numbers can be so far apart, or so near, that the matrix is not.
+// Finite arguments may yield a matrix that is not finite.
 Matrix finite(const char* function, const Matrix& matrix) {
   for (const double element : matrix.m)
     if (!std::isfinite(element))
-      throw Error(std::string(function) +
-                  ": the volume is too large or too thin, an element of its matrix is " +
-                  std::to_string(element));
+      throw Error(ErrorCode::invalid_argument,
+                  std::string(function) +
+                      ": the volume is too large or too thin, an element of its matrix is " +
+                      std::to_string(element));
   return matrix;
 }
 
@@ -155,10 +162,11 @@ Matrix frustum(double left, double right, double bottom, double top, double near
 Matrix perspective(double fovy_degrees, double aspect, double near, double far, bool reversed) {
   const FloatingPointMode mode;
   if (!(fovy_degrees > 0 && fovy_degrees < 180))
-    throw Error("perspective: fovy is " + std::to_string(fovy_degrees) +
-                " degrees, it must be above 0 and below 180");
+    throw Error(ErrorCode::invalid_argument, "perspective: fovy is " + std::to_string(fovy_degrees) +
+                                                 " degrees, it must be above 0 and below 180");
   if (!(aspect > 0) || !std::isfinite(aspect))
-    throw Error("perspective: aspect is " + std::to_string(aspect) + ", it must be finite and above 0");
+    throw Error(ErrorCode::invalid_argument,
+                "perspective: aspect is " + std::to_string(aspect) + ", it must be finite and above 0");
   require_depths("perspective", near, far, true);
   require_positive_depths("perspective", near, far);
   const auto [s, c] = sine_cosine(fovy_degrees / 2);
@@ -180,22 +188,24 @@ Matrix orthographic(double left, double right, double bottom, double top, double
                                   0, 0, 0, 1}});
 }
 
-// x/z of OpenCV's axes is x/w here; pixel coordinates count from the first pixel's centre, the window's from
-// its corner.
+// x/z in OpenCV's axes is x/w in clip space. Pixel coordinates start at the centre of the first pixel, window
+// coordinates at its corner.
 Camera calibrated_camera(const Intrinsics& i, const Matrix& camera_from_world, double near, double far,
                          CameraAxes axes, bool reversed) {
   const FloatingPointMode mode;
   require_enum({"calibrated_camera: axes"}, axes, CameraAxes::opengl);
   for (const double f : {i.fx, i.fy})
     if (!(f > 0) || !std::isfinite(f))
-      throw Error("calibrated_camera: a focal length is " + std::to_string(f) +
-                  " pixels, must be finite and above 0");
+      throw Error(ErrorCode::invalid_argument, "calibrated_camera: a focal length is " + std::to_string(f) +
+                                                   " pixels, must be finite and above 0");
   if (!std::isfinite(i.cx) || !std::isfinite(i.cy))
-    throw Error("calibrated_camera: the principal point is " + std::to_string(i.cx) + ", " +
-                std::to_string(i.cy) + ", must be finite");
+    throw Error(ErrorCode::invalid_argument, "calibrated_camera: the principal point is " +
+                                                 std::to_string(i.cx) + ", " + std::to_string(i.cy) +
+                                                 ", must be finite");
   if (i.width < 1 || i.height < 1)
-    throw Error("calibrated_camera: the picture's size is " + std::to_string(i.width) + "x" +
-                std::to_string(i.height) + ", must be at least 1x1");
+    throw Error(ErrorCode::invalid_argument, "calibrated_camera: the picture's size is " +
+                                                 std::to_string(i.width) + "x" + std::to_string(i.height) +
+                                                 ", must be at least 1x1");
   require_finite({"calibrated_camera: camera_from_world"}, camera_from_world);
   Camera camera{.view = camera_from_world,
                 .projection = frustum(-1, 1, -1, 1, near, far, reversed),

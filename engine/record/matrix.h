@@ -1,4 +1,4 @@
-// The public matrices, as GLM has them.
+// Conversion of public matrices to and from GLM.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -10,8 +10,8 @@ namespace tessera::detail {
 glm::dmat4 to_glm(const Matrix& matrix);
 Matrix from_glm(const glm::dmat4& matrix);
 
-/// The same direction, its square within a double's range: very long and very short vectors are scaled by a
-/// power of two.
+/// Scales very long and very short vectors by a power of two, so that their squared length is in the range of
+/// doubles.
 glm::dvec3 scaled_to_safe_range(const glm::dvec3& v);
 
 }  // namespace tessera::detail

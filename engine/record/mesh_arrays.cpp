@@ -13,11 +13,13 @@
 namespace tessera::detail {
 namespace {
 
-constexpr std::size_t kIndicesPerTask = 4096,
-                      kMinIndicesForWorkers =
-                          65536;  // fewer than many are looked through before others could have begun
+constexpr std::size_t kIndicesPerTask = 4096;
+// Fewer indices are validated before other workers could have started.
+constexpr std::size_t kMinIndicesForWorkers = 65536;
 
-[[noreturn]] void fail(const std::string& message) { throw Error("Frame::draw: the mesh " + message); }
+[[noreturn]] void fail(const std::string& message) {
+  throw Error(ErrorCode::invalid_argument, "Frame::draw: the mesh " + message);
+}
 
 void require_one_form(const char* what, std::size_t packed, const char* unit, std::size_t vertices,
                       std::size_t stride_bytes) {
@@ -27,7 +29,7 @@ void require_one_form(const char* what, std::size_t packed, const char* unit, st
          " bytes, must have one or the other");
 }
 
-// Packed arrays have floats, or vertices as those with a stride do.
+// An array is packed (number of floats) or strided (number of vertices), not both.
 std::size_t vertices_of(const FloatArray& positions, std::size_t components) {
   require_one_form("positions", positions.float_count, "floats", positions.vertices, positions.stride_bytes);
   if (positions.float_count == 0) return positions.vertices;
@@ -127,8 +129,9 @@ bool are_in_bounds(const MeshArrays& mesh, WorkerPool* workers) {
 
 MeshArrays check_mesh(const Mesh& mesh) {
   if (mesh.position_components != 3 && mesh.position_components != 4)
-    throw Error("Frame::draw: the mesh's position_components is " + std::to_string(mesh.position_components) +
-                ", must be 3 or 4");
+    throw Error(ErrorCode::invalid_argument, "Frame::draw: the mesh's position_components is " +
+                                                 std::to_string(mesh.position_components) +
+                                                 ", must be 3 or 4");
   require_enum({"Frame::draw: the mesh's primitive"}, mesh.primitive, Primitive::polygon);
   const auto components = static_cast<std::size_t>(mesh.position_components);
   MeshArrays arrays;
@@ -164,9 +167,10 @@ void check_indices(const MeshArrays& mesh, WorkerPool* workers) {
   if (!mesh.indexed() || are_in_bounds(mesh, workers)) return;
   std::size_t wrong = 0;
   while (wrong + 1 < mesh.corners && mesh.vertex_at(wrong) < mesh.vertices) ++wrong;
-  throw Error("Frame::draw: index " + std::to_string(wrong) + " of the mesh is " +
-              std::to_string(mesh.vertex_at(wrong)) + ", must be below the number of vertices, " +
-              std::to_string(mesh.vertices));
+  throw Error(ErrorCode::invalid_argument, "Frame::draw: index " + std::to_string(wrong) +
+                                               " of the mesh is " + std::to_string(mesh.vertex_at(wrong)) +
+                                               ", must be below the number of vertices, " +
+                                               std::to_string(mesh.vertices));
 }
 
 }  // namespace tessera::detail

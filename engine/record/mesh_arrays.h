@@ -1,4 +1,4 @@
-// A mesh as the stages read it: pointers and strides, checked. The memory is the caller's.
+// A validated mesh: pointers and strides into the memory of the caller.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +15,16 @@ class WorkerPool;
 struct MeshArrays {
   Primitive primitive = Primitive::triangles;
   std::size_t vertices = 0;
-  std::size_t corners = 0;   ///< indices, or vertices where there are none
-  std::size_t elements = 0;  ///< points, lines or triangles: what primitives are split into
+  std::size_t corners = 0;   ///< number of indices, or of vertices without indices
+  std::size_t elements = 0;  ///< points, lines or triangles after splitting
   StridedFloats positions;
-  int components = 3;                         ///< of a position
-  StridedFloats normals;                      ///< or none
-  StridedFloats colors;                       ///< or none
-  const std::uint8_t* color_bytes = nullptr;  ///< or none
+  int components = 3;                         ///< per position: 3 or 4
+  StridedFloats normals;                      ///< optional
+  StridedFloats colors;                       ///< optional
+  const std::uint8_t* color_bytes = nullptr;  ///< optional
   std::size_t color_stride = 0;               ///< bytes
-  StridedFloats color_indices;                ///< or none
-  StridedFloats texcoords;                    ///< or none
+  StridedFloats color_indices;                ///< optional
+  StridedFloats texcoords;                    ///< optional
   const std::uint32_t* indices = nullptr;     ///< null: 16 bits, or vertices in order
   const std::uint16_t* indices16 = nullptr;
 
@@ -32,9 +32,10 @@ struct MeshArrays {
   std::size_t triangles_per_polygon() const { return triangles_of_polygon(primitive, elements); }
   Topology topology() const { return topology_of(primitive); }
   bool has_colors() const { return colors || color_bytes != nullptr; }
-  /// The vertex at a corner, counted along the indices.
+  /// The vertex at a corner of the index list.
   std::size_t vertex_at(std::size_t corner) const {
-    return indices ? indices[corner] : indices16 ? indices16[corner] : corner;
+    if (indices) return indices[corner];
+    return indices16 ? indices16[corner] : corner;
   }
   /// Component c of a vertex's colour.
   float color(std::size_t vertex, std::size_t c) const {
@@ -43,12 +44,12 @@ struct MeshArrays {
   }
 };
 
-/// Checks a mesh but for what its indices are, which are many. Throws Error for arrays that do not fit
-/// together, and strides and pointers that floats cannot have.
+/// Validates everything except the values of indices. Throws Error for arrays that do not fit together, and
+/// for misaligned pointers and strides.
 MeshArrays check_mesh(const Mesh& mesh);
 
-/// Throws Error that names the first index that is out of bounds, if there is one.
-/// @param workers  look through many together; null: the caller alone does
+/// Throws Error for the first index that is out of bounds.
+/// @param workers  share the work for many indices; null: the calling thread alone
 void check_indices(const MeshArrays& mesh, WorkerPool* workers);
 
 }  // namespace tessera::detail

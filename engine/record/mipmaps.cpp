@@ -5,8 +5,8 @@
 namespace tessera::detail {
 namespace {
 
-// Which texels of a row of n one of the n / 2 covers, and how much of each: of an even n two wholes; of n =
-// 2m + 1, in which it is (2m + 1) / m wide, parts of m.
+// Texels of a row of n that one texel of the next row of n / 2 covers, with weights. Even n: two whole
+// texels. n = 2m + 1: the texel is (2m + 1) / m wide; weights are in units of 1/m.
 struct Taps {
   std::size_t first;
   int count;
@@ -43,7 +43,7 @@ std::uint32_t mean(const std::uint32_t* texels, std::size_t stride, const Taps& 
   return word;
 }
 
-// Of four whole texels, two components at a time.
+// Mean of four whole texels, two components at a time.
 std::uint32_t mean_of_four(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
   constexpr std::uint32_t kLow = 0x00ff00ff, kHalf = 0x00020002;
   const auto two = [](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) {

@@ -1,4 +1,4 @@
-// Smaller sizes of a texture.
+// Mipmap levels.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,12 @@
 
 namespace tessera::detail {
 
-/// Half the size, rounded down, at least 1.
+/// Half of the size, rounded down, at least 1.
 constexpr std::int32_t next_level_size(std::int32_t size) { return size > 1 ? size / 2 : 1; }
 
-/// Fills the next level's texels from those of `from`: each the mean of what it covers, weighted by area,
-/// rounded to the nearest level, halves up. Both lie in `words`; what stands behind the rows is not looked
-/// at, and not written.
+/// Fills level `to` from the level before it: each texel is the area-weighted mean of the texels that it
+/// covers, rounded to the nearest level, halves up. Both levels lie in `words`; padding after rows is neither
+/// read nor written.
 void fill_next_level(std::uint32_t* words, const TextureLevel& from, const TextureLevel& to);
 
 }  // namespace tessera::detail

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/record/checks.h"
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/worker_pool.h"
 
 namespace tessera {
@@ -18,20 +19,21 @@ std::string list_of(const std::array<double, 4>& v, int count) {
   return list;
 }
 
-// With a light l (homogeneous) and the plane p, M = (p.l) I - l p^T takes a point x to where the line from l
-// through x meets the plane, and its w to (p.l) x.w - (p.x) l.w. Between the plane, where p.x is 0, and the
-// light, where p.x is p.l, that has the sign of p.l: divided by p.l it is above 0 there, as clipping wants
-// it, whichever way the plane's normal points, and 1 in the plane itself.
+// For a homogeneous light l and a plane p, M = (p.l) I - l p^T maps a point x to the intersection of the
+// plane with the line from l through x, and w to (p.l) x.w - (p.x) l.w. Between the plane (p.x = 0) and the
+// light (p.x = p.l) that has the sign of p.l. Divided by p.l, w is positive there, as clipping requires, for
+// either direction of the normal, and 1 in the plane.
 Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, const Light& light) {
-  constexpr double kRounding = 0x1p-22;  // of the terms of p.l, since lights stand in floats
+  constexpr double kRounding = 0x1p-22;  // relative to the terms of p.l: lights are stored as floats
   require_finite({owner, "'s plane"}, {plane[0], plane[1], plane[2], plane[3]});
   require_finite({owner, "'s light's position"},
                  {light.position[0], light.position[1], light.position[2], light.position[3]});
   const double largest = std::max({std::abs(plane[0]), std::abs(plane[1]), std::abs(plane[2])});
   if (!(largest > 0))
-    throw Error(std::string(owner) + ": the plane is " + list_of(plane, 4) +
-                ", its normal must not be 0 0 0");
-  // A power of two keeps sums of products within a double's range and changes no bit of what follows.
+    throw Error(ErrorCode::invalid_argument, std::string(owner) + ": the plane is " + list_of(plane, 4) +
+                                                 ", its normal must not be 0 0 0");
+  // Scaling by a power of two keeps sums of products within the range of doubles and changes no bit of the
+  // result.
   const int exponent = std::ilogb(std::max(largest, std::abs(plane[3])));
   std::array<double, 4> p, l;
   double product = 0, terms = 0;
@@ -45,7 +47,8 @@ Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, cons
     const bool directional = l[3] == 0;
     if (!directional)
       for (std::size_t i = 0; i < 3; ++i) l[i] /= l[3];
-    throw Error(std::string(owner)
+    throw Error(ErrorCode::invalid_argument,
+                std::string(owner)
                     .append(directional ? ": the light's direction " : ": the light at ")
                     .append(list_of(l, 3))
                     .append(directional ? " is parallel to the plane " : " lies in the plane ")
@@ -57,8 +60,8 @@ Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, cons
     for (std::size_t column = 0; column < 4; ++column) {
       m.m[4 * row + column] -= l[row] * p[column] / product;
       if (!std::isfinite(m.m[4 * row + column]))
-        throw Error(std::string(owner) + ": the shadow on the plane " + list_of(plane, 4) +
-                    " is too far away for numbers");
+        throw Error(ErrorCode::invalid_argument, std::string(owner) + ": the shadow on the plane " +
+                                                     list_of(plane, 4) + " is too far away for numbers");
     }
   return m;
 }
@@ -76,9 +79,10 @@ void apply_planar_shadow(RecordedDraw& draw) {
   const ShadowOn& shadow = *draw.state.shadow_on;
   const std::vector<Light>& lights = draw.scene_state->lights;
   if (shadow.light >= lights.size())
-    throw Error("Frame::draw: shadow_on.light is " + std::to_string(shadow.light) + ", the frame has " +
-                std::to_string(lights.size()) + (lights.size() == 1 ? " light" : " lights") +
-                ", counted from 0");
+    throw Error(ErrorCode::invalid_argument,
+                "Frame::draw: shadow_on.light is " + std::to_string(shadow.light) + ", the frame has " +
+                    std::to_string(lights.size()) + (lights.size() == 1 ? " light" : " lights") +
+                    ", counted from 0");
   require_finite({"Frame::draw: shadow_on.color"}, shadow.color);
   draw.state.transform =
       shadow_matrix("Frame::draw: shadow_on", shadow.plane, lights[shadow.light]) * draw.state.transform;

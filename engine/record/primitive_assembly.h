@@ -1,4 +1,4 @@
-// How the vertices of a mesh make points, lines and polygons, and polygons triangles.
+// Assembly of vertices into points, lines and polygons, and splitting of polygons into triangles.
 #pragma once
 
 #include <array>
@@ -19,9 +19,9 @@ constexpr Topology topology_of(Primitive primitive) {
   }
 }
 
-/// Corner numbers of element t, as many as it has, those of a triangle in the order of its polygon. Its
-/// provoking vertex stands in provoking_place(), unless that says that it is elsewhere.
-/// @param corners  of the whole mesh
+/// Corner numbers of element t; corners of triangles are in the winding of their polygon. The provoking
+/// vertex is at provoking_place(), unless that is -1.
+/// @param corners  number of corners of the mesh
 constexpr std::array<std::size_t, 3> element_corners(Primitive primitive, ProvokingVertex provoking,
                                                      std::size_t corners, std::size_t t) {
   const bool last = provoking == ProvokingVertex::last;
@@ -31,7 +31,7 @@ constexpr std::array<std::size_t, 3> element_corners(Primitive primitive, Provok
     case Primitive::line_strip: return {t, t + 1};
     case Primitive::line_loop: return {t, t + 1 == corners ? 0 : t + 1};
     case Primitive::triangles: return {3 * t, 3 * t + 1, 3 * t + 2};
-    case Primitive::triangle_strip:  // every second one is turned over, around its provoking vertex
+    case Primitive::triangle_strip:  // odd triangles swap the two other corners, to keep the winding
       if (t % 2 == 0) return {t, t + 1, t + 2};
       return last ? std::array{t + 1, t, t + 2} : std::array{t, t + 2, t + 1};
     case Primitive::triangle_fan:
@@ -50,8 +50,8 @@ constexpr std::array<std::size_t, 3> element_corners(Primitive primitive, Provok
   return {};
 }
 
-/// Which of its corners is every element's provoking one; -1: of some triangles it is another corner of their
-/// polygon.
+/// Number of the corner that is each element's provoking vertex; -1: for some triangles it is a corner of
+/// their quad that the triangle lacks.
 constexpr int provoking_place(Primitive primitive, ProvokingVertex provoking) {
   if (topology_of(primitive) == Topology::points) return 0;
   if (topology_of(primitive) == Topology::lines) return provoking == ProvokingVertex::first ? 0 : 1;
@@ -59,7 +59,7 @@ constexpr int provoking_place(Primitive primitive, ProvokingVertex provoking) {
   if (provoking == ProvokingVertex::first) return 0;
   return primitive == Primitive::quads ? -1 : 2;
 }
-/// The provoking corner of element t, or of its polygon.
+/// The provoking corner of the polygon of element t.
 constexpr std::size_t provoking_corner(Primitive primitive, ProvokingVertex provoking, std::size_t corners,
                                        std::size_t t) {
   const int place = provoking_place(primitive, provoking);
@@ -67,8 +67,8 @@ constexpr std::size_t provoking_corner(Primitive primitive, ProvokingVertex prov
                    : element_corners(primitive, provoking, corners, t)[static_cast<std::size_t>(place)];
 }
 
-/// The corner that triangle t of a polygon has, and those of the polygon before it have not. @pre it is not
-/// the polygon's first
+/// The corner that triangle t adds to the triangles of its polygon before it. @pre t is not the first of its
+/// polygon
 constexpr std::size_t added_corner(Primitive primitive, std::size_t t) {
   switch (primitive) {
     case Primitive::quads: return t / 2 * 4 + 3;
@@ -77,8 +77,7 @@ constexpr std::size_t added_corner(Primitive primitive, std::size_t t) {
   }
 }
 
-/// Triangles that each polygon was split into; 1 for strips and fans, whose triangles are polygons of their
-/// own, and for points and lines.
+/// Number of triangles per polygon; 1 for points, lines, and strips and fans of triangles.
 constexpr std::size_t triangles_of_polygon(Primitive primitive, std::size_t triangles) {
   switch (primitive) {
     case Primitive::quads:

@@ -1,4 +1,4 @@
-// What a frame has recorded.
+// The recorded commands of a frame.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace tessera::detail {
 
 class WorkerPool;
 
-/// Camera, lights and light model as they were when a draw was recorded.
+/// Camera, lights and light model of one or more draws.
 struct SceneState {
   Camera camera;
   std::vector<Light> lights{Light{}};
@@ -28,15 +28,15 @@ struct SceneState {
 struct RecordedPixels {
   PixelRectangle rectangle;
   double depth = 0;
-  Color color;  ///< of a bitmap
+  Color color;  ///< bitmaps only
 };
 
 struct RecordedDraw {
   MeshArrays mesh;
   DrawState state;
-  const SceneState* scene_state = nullptr;  ///< the draws' between two changes
-  const TextureState* texture = nullptr;    ///< of the state's, wherever that moves
-  std::optional<RecordedPixels> pixels{};   ///< in place of the mesh, which is empty then
+  const SceneState* scene_state = nullptr;  ///< shared by the draws between two changes
+  const TextureState* texture = nullptr;    ///< state of DrawState::texture; stays when the Texture is moved
+  std::optional<RecordedPixels> pixels{};   ///< in place of the mesh, which is then empty
 };
 struct RecordedClear {
   Clear clear;
@@ -50,24 +50,24 @@ struct RecordedAccum {
 
 struct FrameRecording {
   FrameBufferState* target = nullptr;
-  WorkerPool* workers = nullptr;  ///< of a renderer that helps to record, if there is one
+  WorkerPool* workers = nullptr;  ///< workers of the renderer that helps to validate; may be null
   std::vector<RecordedDraw> draws;
   std::vector<RecordedClear> clears;
   std::vector<RecordedAccum> accumulations;
-  bool has_keep_list = false;  ///< else by what the frame changes
-  std::array<bool, 4> kept{};  ///< if it is chosen: of each Buffer
+  bool has_keep_list = false;  ///< false: keep what the frame changes
+  std::array<bool, 4> kept{};  ///< per Buffer, if has_keep_list
   Capture capture;
 
-  /// Of what is drawn next.
+  /// State of the next draw.
   const SceneState& scene_state() const { return scene_states_[last_scene_state_]; }
-  /// The same, to be changed: what is recorded already keeps its own. Throws std::bad_alloc.
+  /// State of the next draw, to be modified; recorded draws keep theirs. Throws std::bad_alloc.
   SceneState& mutable_scene_state() {
     if (draws.empty() || draws.back().scene_state != &scene_state()) return scene_states_[last_scene_state_];
     if (last_scene_state_ + 1 == scene_states_.size()) scene_states_.emplace_back();
     scene_states_[last_scene_state_ + 1] = scene_states_[last_scene_state_];
     return scene_states_[++last_scene_state_];
   }
-  /// Camera, lights and light model stay, and so does the memory.
+  /// Forgets the commands. Camera, lights, light model and memory stay.
   void clear() noexcept {
     draws.clear();
     clears.clear();
@@ -79,7 +79,7 @@ struct FrameRecording {
   }
 
  private:
-  std::deque<SceneState> scene_states_{1};  // from one change to the next; they stay where they are
+  std::deque<SceneState> scene_states_{1};  // one per change; a deque keeps addresses
   std::size_t last_scene_state_ = 0;
 };
 

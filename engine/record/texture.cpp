@@ -1,4 +1,4 @@
-// Making textures: checks, texels as words, mipmaps, and what the whole of a texture amounts to.
+// Construction of textures: checks, texels as words, mipmaps, textures of one colour.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -6,6 +6,7 @@
 #include "engine/record/checks.h"
 #include "engine/record/mipmaps.h"
 #include "engine/record/texture_state.h"
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/out_of_memory.h"
 #include "engine/runtime/worker_pool.h"
 #include "framebuffer/instruction_set.h"
@@ -18,28 +19,32 @@ static_assert(kMaxTextureSide == kMaxTextureSize);
 
 void check_side(const char* what, int texels) {
   if (texels < 1 || texels > kMaxTextureSize)
-    throw Error(std::string("Texture: the ") + what + " is " + std::to_string(texels) +
-                " texels, must be 1 to " + std::to_string(kMaxTextureSize));
+    throw Error(ErrorCode::invalid_argument, std::string("Texture: the ") + what + " is " +
+                                                 std::to_string(texels) + " texels, must be 1 to " +
+                                                 std::to_string(kMaxTextureSize));
 }
 
 void check(const TextureImage& image, const TextureSampler& sampler) {
   check_side("width", image.width);
   check_side("height", image.height);
   if (image.channels < 1 || image.channels > 4)
-    throw Error("Texture: the image has " + std::to_string(image.channels) + " channels, must be 1 to 4");
+    throw Error(ErrorCode::invalid_argument,
+                "Texture: the image has " + std::to_string(image.channels) + " channels, must be 1 to 4");
   if (image.pixels == nullptr)
-    throw Error("Texture: the pixels are null, must be " + std::to_string(image.width) + "x" +
-                std::to_string(image.height) + " of them");
+    throw Error(ErrorCode::invalid_argument, "Texture: the pixels are null, must be " +
+                                                 std::to_string(image.width) + "x" +
+                                                 std::to_string(image.height) + " of them");
   const std::ptrdiff_t row = std::ptrdiff_t{image.width} * image.channels;
   if (image.stride_bytes != 0 && image.stride_bytes < row && image.stride_bytes > -row)
-    throw Error("Texture: the rows are " + std::to_string(image.stride_bytes) + " bytes apart, but " +
-                std::to_string(row) + " bytes long");
+    throw Error(ErrorCode::invalid_argument, "Texture: the rows are " + std::to_string(image.stride_bytes) +
+                                                 " bytes apart, but " + std::to_string(row) + " bytes long");
   require_enum({"Texture: mag"}, sampler.mag, TextureFilter::linear_mipmap_linear);
   require_enum({"Texture: min"}, sampler.min, TextureFilter::linear_mipmap_linear);
   for (const TextureWrap wrap : {sampler.wrap_s, sampler.wrap_t})
     require_enum({"Texture: a wrap"}, wrap, TextureWrap::mirrored_repeat);
   if (sampler.mag != TextureFilter::nearest && sampler.mag != TextureFilter::linear)
-    throw Error("Texture: mag is a filter with mipmaps, must be nearest or linear");
+    throw Error(ErrorCode::invalid_argument,
+                "Texture: mag is a filter with mipmaps, must be nearest or linear");
 }
 
 std::uint32_t packed_texel(const std::uint8_t* pixel, int channels) {
@@ -74,7 +79,7 @@ bool has_mipmaps(const TextureSampler& sampler) {
   return sampler.min != TextureFilter::nearest && sampler.min != TextureFilter::linear;
 }
 
-// Sizes, and where each level lies. Returns the number of words.
+// Size and offset of each level. Returns the number of words.
 std::size_t lay_out_levels(TextureLevels& levels, const TextureImage& image, bool mipmaps) {
   levels.level[0] = {0, image.width, image.height};
   std::int64_t words = levels.level[0].words();
@@ -99,8 +104,8 @@ void fill_from(const TextureImage& image, std::uint32_t* words, const TextureLev
   }
 }
 
-// What stands behind the last texel and the last row is what follows them. Where nothing follows, it has no
-// weight.
+// Fills the padding after the last texel and the last row with the texels that follow under the wrap mode. If
+// none follow, the padding has weight 0.
 void pad_level(std::uint32_t* words, const TextureLevel& level, const TextureLevels& of) {
   std::uint32_t* const first = words + level.first;
   for (std::int32_t y = 0; y < level.height; ++y) {
@@ -130,8 +135,8 @@ bool is_one_color(const TextureState& texture) {
   return true;
 }
 
-// Magnified: with a linear filter the mean of the texels around the image's corner, exactly as the kernel has
-// it.
+// Magnification: a linear filter yields the mean of the texels around the corner of the image, as in the
+// kernel.
 std::array<float, 4> color_at_origin(const TextureState& texture) {
   const TextureLevels& levels = texture.levels;
   const TextureLevel& level = levels.level[0];

@@ -1,4 +1,4 @@
-// What stands behind a Texture.
+// State of a Texture.
 #pragma once
 
 #include <array>
@@ -13,12 +13,11 @@ namespace tessera::detail {
 
 struct TextureState {
   std::vector<std::uint32_t> texels;
-  TextureLevels levels;  ///< points into them
+  TextureLevels levels;  ///< refers to `texels`
   TextureSampler sampler;
   int channels = 4;
-  std::optional<std::array<float, 4>> one_color;  ///< where all texels are the same
-  std::array<float, 4>
-      at_origin{};  ///< what s = t = 0 shows without slopes: draws that have no texture coordinates
+  std::optional<std::array<float, 4>> one_color;  ///< if all texels are equal
+  std::array<float, 4> at_origin{};  ///< sample at s = t = 0 without derivatives, for draws without texcoords
 
   bool has_alpha() const { return channels == 2 || channels == 4; }
 };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/worker_pool.h"
 #include "engine/tessera/tessera.hpp"
 
@@ -9,9 +10,9 @@ namespace tessera::detail {
 
 void FrameProgress::report() {
   done_.fetch_add(1);
-  // Nobody waits here: the callback may need this very thread, for another renderer's frame. Who calls
-  // already looks again afterwards, and sees what was counted by those who found it calling: all of this is
-  // sequentially consistent.
+  // Never block: the callback may re-enter through another renderer on this thread. The thread that holds
+  // `in_callback_` checks `done_` again afterwards, so increments made meanwhile are not lost. Relies on
+  // seq_cst.
   while (!in_callback_.exchange(true)) {
     const std::size_t done = done_;
     call_if_due(done);
@@ -30,7 +31,7 @@ void FrameProgress::call_if_due(std::size_t done) {
   const double share = std::lerp(begin_, end_, static_cast<double>(done) / static_cast<double>(tasks_));
   bool goes_on = false;
   run_isolated([&] {
-    const FloatingPointMode mode;  // its worker has more tasks to run, whatever mode it leaves
+    const FloatingPointMode mode;  // the callback may change the mode; this worker has more tasks to run
     goes_on = progress_(share);
   });
   if (!goes_on) throw Cancelled("Renderer::finish: cancelled by the progress callback");

@@ -1,5 +1,4 @@
-// Tells the caller how far a frame is, and hears whether to go on; and what its tasks took, if somebody wants
-// to know.
+// Progress callbacks and cancellation of a frame, and the trace of its tasks.
 #pragma once
 
 #include <atomic>
@@ -13,12 +12,13 @@ namespace tessera::detail {
 
 class FrameProgress {
  public:
-  /// `progress` may be empty: then it costs nothing.
+  /// `progress` may be empty.
   FrameProgress(const std::function<bool(double)>& progress, FrameTrace& trace)
       : progress_(progress), trace_(trace) {}
 
-  /// A stage of `tasks` tasks begins, at whose end `end` of the frame is done; the last one's is 1. Between
-  /// stages only.
+  /// Begins a stage. Only between stages.
+  /// @param end    share of the frame that is done at its end; 1 for the last stage
+  /// @param tasks  number of task() calls
   void begin_stage(FrameStage stage, double end, std::size_t tasks) {
     trace_.begin_stage(stage);
     begin_ = end_;
@@ -26,7 +26,7 @@ class FrameProgress {
     tasks_ = tasks;
     done_ = reported_ = 0;
   }
-  /// Runs a task, on any worker. Throws Cancelled, or what the callback throws.
+  /// Runs a task, on any worker. Throws Cancelled, and exceptions of the callback.
   template <class Work>
   void task(int worker, const Rect& pixels, const Work& work) {
     trace_.task(worker, pixels, work);
@@ -46,9 +46,8 @@ class FrameProgress {
   double begin_ = 0, end_ = 0;
   std::size_t tasks_ = 0;
   std::atomic<std::size_t> done_ = 0;
-  std::atomic<bool> in_callback_ =
-      false;                  // the callback, by one at a time; for ever once it has stopped the frame
-  std::size_t reported_ = 0;  // of done_, in this stage
+  std::atomic<bool> in_callback_ = false;  // a worker runs the callback; stays true once the frame is stopped
+  std::size_t reported_ = 0;               // value of done_ in the last report of this stage
   std::chrono::steady_clock::time_point last_call_{};
 };
 

@@ -19,7 +19,7 @@ std::vector<FrameTask> FrameTrace::tasks() const noexcept try {
   }
   const auto began_before = [](const FrameTask& a, const FrameTask& b) { return a.begin < b.begin; };
   if (!std::is_sorted(all.begin(), all.end(), began_before))
-    std::stable_sort(all.begin(), all.end(), began_before);  // those of one worker are
+    std::stable_sort(all.begin(), all.end(), began_before);
   return all;
 } catch (const std::bad_alloc&) {
   return {};

@@ -1,4 +1,4 @@
-// When each task of a frame ran, and by whom, for who asked for it.
+// Times and workers of the tasks of a frame.
 #pragma once
 
 #include <chrono>
@@ -11,15 +11,15 @@ namespace tessera::detail {
 
 class FrameTrace {
  public:
-  /// @param workers  0: nobody asked, and no clock is read
+  /// @param workers  0: tracing is off, and no clock is read
   explicit FrameTrace(int workers) : tasks_(static_cast<std::size_t>(workers)) {}
 
-  /// Tasks from here on belong to a pass of that stage. Between tasks only.
+  /// Begins a pass of a stage. Only between tasks.
   void begin_stage(FrameStage stage) {
     stage_ = stage;
     ++pass_;
   }
-  /// Runs `work` as a task. Workers are told apart: theirs may run at the same time.
+  /// Runs `work` as a task. Tasks of distinct workers may run concurrently.
   template <class Work>
   void task(int worker, const Rect& pixels, const Work& work) {
     if (tasks_.empty()) return work();
@@ -27,13 +27,12 @@ class FrameTrace {
     work();
     tasks_[static_cast<std::size_t>(worker)].add({stage_, worker, begin, now(), pixels, pass_});
   }
-  /// Of all workers, in the order in which they began. Without memory for them: none.
+  /// Tasks of all workers, ordered by begin. Empty if memory ran out.
   std::vector<FrameTask> tasks() const noexcept;
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// Of one worker, in cache lines of its own. The frame is worth more than its trace: what there is no
-  /// memory for is left out.
+  /// Tasks of one worker, in separate cache lines. If memory runs out the trace is dropped, not the frame.
   struct alignas(64) WorkerTasks {
     std::vector<FrameTask> list;
     bool is_complete = true;
@@ -44,7 +43,7 @@ class FrameTrace {
   Clock::time_point start_ = Clock::now();
   FrameStage stage_ = FrameStage::vertices;
   int pass_ = -1;
-  std::vector<WorkerTasks> tasks_;  // of each worker
+  std::vector<WorkerTasks> tasks_;  // per worker
 };
 
 }  // namespace tessera::detail

@@ -1,4 +1,4 @@
-// The one exception type of the interface, also where memory runs out.
+// Translation of std::bad_alloc into Error.
 #pragma once
 
 #include <new>
@@ -8,13 +8,13 @@
 
 namespace tessera::detail {
 
-/// Calls run(); std::bad_alloc becomes an Error that names the function.
+/// Calls run(). std::bad_alloc becomes an Error with out_of_memory that names the function.
 template <class Run>
 decltype(auto) translate_bad_alloc(const char* function, const Run& run) {
   try {
     return run();
   } catch (const std::bad_alloc&) {
-    throw Error(std::string(function) + ": not enough memory");
+    throw Error(ErrorCode::out_of_memory, std::string(function) + ": not enough memory");
   }
 }
 

@@ -33,26 +33,28 @@ std::string_view name(InstructionSet set) {
 
 Renderer::Renderer(RendererOptions options) try {
   if (options.threads < 0 || options.threads > kMaxThreads)
-    throw Error("Renderer: threads is " + std::to_string(options.threads) + ", must be 0 (all cores) to " +
-                std::to_string(kMaxThreads));
+    throw Error(ErrorCode::invalid_argument, "Renderer: threads is " + std::to_string(options.threads) +
+                                                 ", must be 0 (all cores) to " + std::to_string(kMaxThreads));
   if (options.tile_size != 0 && options.tile_size != 32 && options.tile_size != 64 &&
       options.tile_size != 128)
-    throw Error("Renderer: tile_size is " + std::to_string(options.tile_size) +
-                ", must be 0 (chosen), 32, 64 or 128");
+    throw Error(ErrorCode::invalid_argument, "Renderer: tile_size is " + std::to_string(options.tile_size) +
+                                                 ", must be 0 (chosen), 32, 64 or 128");
   if (options.bin_memory < kMinBinMemory)
-    throw Error("Renderer: bin_memory is " + std::to_string(options.bin_memory) +
-                " bytes, must be at least " + std::to_string(kMinBinMemory));
+    throw Error(ErrorCode::invalid_argument, "Renderer: bin_memory is " + std::to_string(options.bin_memory) +
+                                                 " bytes, must be at least " + std::to_string(kMinBinMemory));
   const std::vector<InstructionSet> sets = available_instruction_sets();
   if (options.instruction_set == InstructionSet::automatic) options.instruction_set = sets.front();
   if (std::find(sets.begin(), sets.end(), options.instruction_set) == sets.end()) {
     std::string known;
     for (const InstructionSet set : sets) known += (known.empty() ? "" : ", ") + std::string(name(set));
-    throw Error("Renderer: the instruction set " + std::string(name(options.instruction_set)) +
-                " is not in this build or machine, which have " + known);
+    throw Error(ErrorCode::unsupported, "Renderer: the instruction set " +
+                                            std::string(name(options.instruction_set)) +
+                                            " is not in this build or machine, which have " + known);
   }
   if (options.executor && options.executor->workers() < 1)
-    throw Error("Renderer: the executor has " + std::to_string(options.executor->workers()) +
-                " workers, must have at least 1");
+    throw Error(ErrorCode::invalid_argument, "Renderer: the executor has " +
+                                                 std::to_string(options.executor->workers()) +
+                                                 " workers, must have at least 1");
   if (options.threads == 0)
     options.threads =
         std::min(options.executor ? options.executor->workers() : default_concurrency(), kMaxThreads);
@@ -66,7 +68,7 @@ Renderer::Renderer(RendererOptions options) try {
            std::string(name(state.options.instruction_set));
   });
 } catch (const std::bad_alloc&) {
-  throw Error("Renderer: not enough memory");
+  throw Error(ErrorCode::out_of_memory, "Renderer: not enough memory");
 }
 Executor::~Executor() = default;
 Renderer::~Renderer() = default;
@@ -77,13 +79,14 @@ const RendererOptions& Renderer::options() const noexcept { return state_->optio
 namespace {
 
 FrameRecording& require_recording(const std::unique_ptr<FrameRecording>& recording) {
-  if (!recording) throw Error("Renderer::finish: the frame was moved from");
+  if (!recording) throw Error(ErrorCode::invalid_state, "Renderer::finish: the frame was moved from");
   return *recording;
 }
 
 FrameStats finish_frame(RendererState& state, FrameRecording& recording, const ImageTarget* image) {
   if (state.worker_pool.is_running())
     throw Error(
+        ErrorCode::invalid_state,
         "Renderer::finish: called by this renderer's own progress callback; a frame must have ended before "
         "the next one");
   return translate_bad_alloc("Renderer::finish", [&] {

@@ -1,4 +1,4 @@
-// What stands behind a Renderer: the working memory of frames, and the stages that a frame runs through.
+// State of a Renderer: working memory that is kept from frame to frame, and the steps of a frame.
 #pragma once
 
 #include <deque>
@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/plan/frame_commands.h"
-#include "engine/runtime/frame_progress.h"
 #include "engine/runtime/worker_pool.h"
 #include "engine/stages/bin_stage.h"
 #include "engine/stages/draw_range.h"
@@ -16,7 +15,16 @@
 
 namespace tessera::detail {
 
-/// What the workers' tiles need besides depth.
+struct FrameContext;
+
+/// Shares of a frame that are done after the steps before the tiles, for progress callbacks.
+inline constexpr double kElementsDone = 0.03;
+inline constexpr double kNormalsDone = 0.08;
+inline constexpr double kVerticesDone = 0.15;
+inline constexpr double kFlatColorsDone = 0.2;
+inline constexpr double kBinsDone = 0.3;
+
+/// Memory of a tile workspace in addition to depth.
 struct WorkspaceRequirements {
   int colors = 1;  ///< tiles
   bool normals = false, stencil = false, accumulation = false, samples = false;
@@ -31,46 +39,59 @@ struct RendererState {
   WorkerPool worker_pool;
   FrameCommands commands;
   std::deque<DrawBuffers> draw_buffers;
-  DrawRanges ranges;  // of the tasks that run
+  DrawRanges ranges;  ///< tasks of the running geometry pass
   NormalStage normal_stage;
   BinStage bin_stage;
-  std::vector<TileRange> pending_ranges;  // to be rendered, from the last one to the next
+  std::vector<TileRange> pending_ranges;  ///< parts still to be rendered, the next one last
   StripScratch strip_scratch;
   ScanOutCache scan_out_cache;
-  std::vector<TileWorkspace> workspaces;                       // one for each worker
-  std::optional<WorkspaceRequirements> prepared_requirements;  // what all of them have, and maybe more
-  std::vector<WorkerCounts> worker_counts;
+  std::vector<TileWorkspace> workspaces;                       ///< per worker
+  std::optional<WorkspaceRequirements> prepared_requirements;  ///< minimum over all workspaces
+  std::vector<WorkerCounts> worker_counts;                     ///< per worker
 
   RendererState(RendererOptions o, InstructionSet i)
       : options(std::move(o)),
         isa(i),
-        worker_pool(options.threads, options.executor, options.task_order),
+        worker_pool(options.threads, options.executor, options.debug.task_order),
         bin_stage(options.bin_memory, worker_pool, isa) {}
 
   FrameStats run(FrameRecording& recording, const ImageTarget* image);
 
-  /// Logs what is worth saying of a frame.
+  /// Logs the counts of a frame.
   void report(const FrameStats& stats) const;
 
-  /// `message()` is only made where somebody listens.
+  /// Calls `message()` only if there is a log.
   template <class Message>
   void log(LogLevel level, const Message& message) const {
     if (options.log) options.log(level, message());
   }
 
  private:
-  /// Makes `ranges` of as many as `count(draw)` of each draw.
-  template <class Count>
-  void split_draws(const Count& count, std::size_t each);
-  void process_geometry(FrameProgress& progress);
-  void prepare_workspaces(const WorkspaceRequirements& memory);
-  /// All tiles at once if their bins are filled, else part by part, as many at a time as fit.
-  void render_ranges(bool is_filled, const TileStage& stage, FrameStats& stats, FrameProgress& progress);
-  void index_bin_batches(const TileStage& stage, const TileRange& tiles, const FrameStats& stats,
-                         FrameProgress& progress);
-  void render_tiles(const TileStage& stage, const TileRange& tiles, FrameStats& stats,
-                    FrameProgress& progress);
+  struct GeometryPass {
+    FrameStage stage;
+    double done;             ///< share of the frame that is done at its end
+    std::size_t range_size;  ///< vertices or elements per task
+  };
+
+  // The steps of run(), in order.
+  void plan(FrameContext& frame);
+  void reserve_planes(FrameContext& frame);
+  void run_geometry(FrameContext& frame);
+  void run_binning(FrameContext& frame);
+  void run_tiles(FrameContext& frame);
+  void commit_buffers(FrameContext& frame);
+  FrameStats finish(FrameContext& frame);
+
   int tile_size_for(const FrameBufferFormat& format) const;
+  /// Calls work(draw, first, last) for ranges of count(draw) items of each draw, in parallel.
+  template <class Count, class Work>
+  void run_ranges(FrameContext& frame, const GeometryPass& pass, const Count& count, const Work& work);
+  TileFrame tile_frame(const FrameContext& frame);
+  void prepare_workspaces(const WorkspaceRequirements& memory);
+  void render_parts(FrameContext& frame, const TileStage& stage);
+  void index_bin_batches(FrameContext& frame, const TileRange& tiles);
+  void render_tiles(FrameContext& frame, const TileStage& stage, const TileRange& tiles);
+  void commit_interrupted_buffers(FrameContext& frame);
 };
 
 }  // namespace tessera::detail

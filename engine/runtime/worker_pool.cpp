@@ -15,9 +15,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
+#include "engine/runtime/floating_point_mode.h"
 
 namespace tessera::detail {
 
@@ -25,8 +23,8 @@ namespace tbb = oneapi::tbb;
 
 namespace {
 
-/// oneTBB's threads, in an arena of their own, where progress callbacks may work, too. Two keep their numbers
-/// from call to call; which of more takes which is chance.
+/// Threads of oneTBB in a separate arena, so that progress callbacks may use oneTBB, too. Two threads keep
+/// their worker numbers from call to call; with more the assignment varies.
 class ArenaExecutor : public Executor {
  public:
   explicit ArenaExecutor(int threads) : threads_(threads), arena_(threads) {}
@@ -53,8 +51,7 @@ class SerialExecutor : public Executor {
   }
 };
 
-/// Where a task that would run as number i runs in another order: i step + order modulo count, for a step
-/// that meets them all.
+/// Permutation of tasks: task number i becomes (i * step + order) mod count, with step coprime to count.
 class TaskOrder {
  public:
   TaskOrder(std::uint32_t order, std::size_t count) : order_(order), count_(count) {
@@ -91,7 +88,7 @@ struct WorkerPool::Dispatch {
   std::atomic<std::size_t> done{0};
   std::atomic<bool> failed{false};
   std::exception_ptr failure{};
-  std::atomic<int> invalid_worker{0};  // a worker that nobody asked for; 0: none
+  std::atomic<int> invalid_worker{0};  // a worker out of range that the executor passed; 0: none
 
   static void work(void* dispatch, int worker) noexcept { static_cast<Dispatch*>(dispatch)->run(worker); }
   void run(int worker) noexcept {
@@ -113,7 +110,7 @@ struct WorkerPool::Dispatch {
   /// @return  tasks that this worker ran
   std::size_t run_share(Share& share, int worker) noexcept {
     std::size_t ran = 0;
-    // It looks before it takes: looking leaves the line in the caches of all who look.
+    // Load before the read-modify-write: a load leaves the cache line shared.
     while (share.next.load(std::memory_order_relaxed) < share.end &&
            !failed.load(std::memory_order_relaxed)) {
       const std::size_t i = share.next.fetch_add(1, std::memory_order_relaxed);
@@ -136,7 +133,7 @@ WorkerPool::WorkerPool(int threads, std::shared_ptr<Executor> executor, std::uin
   if (executor_) {
     threads_ = std::clamp(threads, 1, std::max(1, executor_->workers()));
   } else {
-    // An arena above the process's limit would make oneTBB print a warning and not run more threads anyway.
+    // An arena above the process's limit runs no more threads, and makes oneTBB print a warning.
     const auto limit =
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     threads_ = std::clamp(threads, 1, std::max(1, limit));
@@ -152,8 +149,8 @@ void WorkerPool::run(std::size_t count, const TaskRef& task) {
   if (count == 0) return;
   const TaskOrder order(order_, count);
   if (is_running_) {
-    // A task's call: the others are busy with the outer one. Who waited for them here might wait for one who
-    // waits for this task.
+    // Nested call: run serially on this thread. The other workers belong to the outer call; waiting for them
+    // could deadlock.
     const FloatingPointMode mode;
     for (std::size_t i = 0; i < count; ++i) task.call(task.self, order(i), 0);
     return;
@@ -171,10 +168,12 @@ void WorkerPool::run(std::size_t count, const TaskRef& task) {
   }
   if (dispatch.failure) std::rethrow_exception(dispatch.failure);
   if (const int invalid_worker = dispatch.invalid_worker.load(std::memory_order_acquire); invalid_worker != 0)
-    throw Error("Renderer: the executor called work for worker " + std::to_string(invalid_worker) +
-                ", run() must call it for 0 .. " + std::to_string(workers - 1));
+    throw Error(ErrorCode::executor_failure,
+                "Renderer: the executor called work for worker " + std::to_string(invalid_worker) +
+                    ", run() must call it for 0 .. " + std::to_string(workers - 1));
   if (dispatch.done.load(std::memory_order_acquire) != count)
     throw Error(
+        ErrorCode::executor_failure,
         "Renderer: the executor returned before its work was done; run() must call work for each worker and "
         "wait for all of them");
 }
@@ -188,20 +187,5 @@ int WorkerPool::distinct_workers_seen() {
 void run_isolated(const std::function<void()>& run) { tbb::this_task_arena::isolate(run); }
 
 int default_concurrency() { return std::max(1, tbb::info::default_concurrency()); }
-
-#if defined(__x86_64__)
-FloatingPointMode::FloatingPointMode() : saved_(_mm_getcsr()) {
-  _mm_setcsr(0x1f80);  // exceptions masked, round to nearest, neither FTZ nor DAZ
-}
-FloatingPointMode::~FloatingPointMode() { _mm_setcsr(static_cast<unsigned>(saved_)); }
-#elif defined(__aarch64__)
-FloatingPointMode::FloatingPointMode() {
-  __asm__ volatile("mrs %0, fpcr" : "=r"(saved_));
-  __asm__ volatile("msr fpcr, %0" : : "r"(0ULL));
-}
-FloatingPointMode::~FloatingPointMode() { __asm__ volatile("msr fpcr, %0" : : "r"(saved_)); }
-#else
-#error "FloatingPointMode: name the floating-point control register of this architecture"
-#endif
 
 }  // namespace tessera::detail

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/plan/tile_draws.h"
 #include "raster/polygon_offset.h"
 #include "raster/sample_positions.h"
 
@@ -9,9 +10,8 @@ namespace tessera::detail {
 namespace {
 
 constexpr std::size_t kTrianglesPerBatch = 1024;
-/// In the bins of a single tile a triangle takes less than this: its entry, and the pieces that clipping
-/// makes of it, in lists that double. (Of a polygon whose outline is drawn it is one of many that stay
-/// together.)
+/// Upper bound of a triangle's memory in the bins of a single tile: its entry and its clipped pieces, in
+/// lists that grow by doubling. Triangles of an outlined polygon share their entries.
 constexpr std::size_t kMaxBytesPerTriangle = 8192;
 
 void bin_elements(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
@@ -65,7 +65,7 @@ void BinStage::prepare_draws(int samples) {
     draw.positions = geometry.mesh->positions;
     draw.components = geometry.mesh->components;
     draw.attributes = geometry.buffers->attributes.data();
-    draw.attribute_count = draw.attribute_stride = plan.attribute_count;
+    draw.attribute_count = draw.attribute_stride = plan.varyings.count;
     if (plan.outlines) {
       PolygonModes& modes = geometry.buffers->modes;
       modes = {.style = {plan.style[0], plan.style[1]},
@@ -74,7 +74,7 @@ void BinStage::prepare_draws(int samples) {
                .triangles = geometry.mesh->triangles_per_polygon(),
                .boundary = geometry.buffers->boundary.data()};
       std::uint32_t number = draw.draw;
-      for (const PolygonMode style : styles_of(plan)) modes.draw[static_cast<int>(style)] = number++;
+      for (const PolygonMode style : polygon_modes_of(plan)) modes.draw[static_cast<int>(style)] = number++;
       draw.modes = &modes;
     }
     draws_.push_back(draw);
@@ -106,8 +106,7 @@ bool BinStage::fill(const TileRange& tiles, FrameProgress& progress) {
   const PixelRect pixels{tiles.x0 * grid_.tile_size, tiles.y0 * grid_.tile_size, tiles.x1 * grid_.tile_size,
                          tiles.y1 * grid_.tile_size};
   for (std::size_t d = 0; d < draws_.size(); ++d) draws_[d].rect = intersect(draw_rects_[d], pixels);
-  // One core does this alone. Unless the last fill was complete and fitted, it looks at one batch after the
-  // other.
+  // Serial: visits every batch, unless the last fill was complete and fitted.
   if (!budget_is_exact_) start_budget();
   budget_is_exact_ = false;
   worker_counts_.assign(static_cast<std::size_t>(worker_pool_.threads()), {});
@@ -126,7 +125,7 @@ bool BinStage::fill(const TileRange& tiles, FrameProgress& progress) {
     batches_.set({bins_.data(), batch_count_}, tiles.count(), tiles.first(grid_));
     return true;
   }
-  // Memory that went to batches as this range or earlier frames needed it may be wanted by others now.
+  // Release the memory: the next ranges may need it for other batches.
   for (Bins& bins : bins_) bins = Bins();
   if (tiles.count() > 1) return false;
   fill_one_by_one(tiles);

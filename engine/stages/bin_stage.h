@@ -1,6 +1,6 @@
-// The second stage of a frame: its elements are sorted into the tiles that they may touch. Where the bins of
-// all tiles would take more memory than is allowed, they are made for one part of the frame after the other,
-// and those parts rendered in between: a tile needs no bins but its own, so its pixels are the same.
+// The binning stage: elements are sorted into the tiles that they may touch. If the bins of all tiles would
+// exceed their memory, the frame is binned and rendered in parts. A tile needs no bins but its own, so its
+// pixels are the same.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace tessera::detail {
 
-/// Some rows of tiles, or some tiles of one row: their numbers follow each other. Columns [x0, x1), rows [y0,
-/// y1).
+/// Whole rows of tiles, or tiles of one row, so that their numbers are consecutive. Columns [x0, x1), rows
+/// [y0, y1).
 struct TileRange {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
@@ -25,27 +25,24 @@ struct TileRange {
 
 class BinStage {
  public:
-  /// For one frame after the other, in the same memory.
-  ///
-  /// @param limit  bytes that the bins may take together; beside them 8 bytes a tile and 8 for every 64
-  /// batches begun say what they hold
+  /// @param limit  bytes of all bins together. Their index takes another 8 bytes per tile and 8 per 64
+  /// batches
   BinStage(std::size_t limit, WorkerPool& worker_pool, InstructionSet isa)
       : limit_bytes_(limit), worker_pool_(worker_pool), isa_(isa) {}
   BinStage(const BinStage&) = delete;
   BinStage& operator=(const BinStage&) = delete;
 
-  /// `commands` are used until the next frame begins. Throws std::bad_alloc.
+  /// Starts a frame. `commands` must stay until the next one. Throws std::bad_alloc.
   void begin(const FrameCommands& commands, const TileGrid& grid, int samples);
 
   std::size_t batch_count() const { return batch_count_; }
-  /// Fills the bins of some tiles. False if there are several and their bins would pass the limit. A single
-  /// tile is always filled: if its bins would pass the limit they will be made while it is rendered, a batch
-  /// at a time.
+  /// Fills the bins of some tiles. False if there are several tiles and their bins would exceed the limit. A
+  /// single tile always succeeds: bins that exceed the limit are made while it is rendered, one batch at a
+  /// time.
   bool fill(const TileRange& tiles, FrameProgress& progress);
-  /// What was filled last, if that fitted. It stays in one place. Tiles are looked through before they are
-  /// rendered.
+  /// The bins filled last, at a constant address. Tiles must be indexed before they are rendered.
   BinBatches& batches() { return batches_; }
-  /// What was filled last, all batches together; complete if it did not fit, too.
+  /// Counts of the last fill(); complete even if it returned false.
   const BinCounts& counts() const { return counts_; }
 
  private:
@@ -62,15 +59,16 @@ class BinStage {
   WorkerPool& worker_pool_;
   InstructionSet isa_;
   std::vector<Bins> bins_;
-  BinBudget budget_;              ///< of bins_
-  bool budget_is_exact_ = false;  ///< the budget tells, to the byte, what they take
+  BinBudget budget_;              ///< memory of bins_
+  bool budget_is_exact_ = false;  ///< the budget equals the bytes in use
   const FrameCommands* commands_ = nullptr;
   TileGrid grid_{};
   std::vector<BinDraw> draws_;
-  std::vector<PixelRect> draw_rects_;  ///< of the draws, in the whole frame
-  std::vector<std::size_t>
-      first_element_;  ///< of each draw, counted through the frame; a bitmap or an image counts as one
-  DrawRanges polygon_ranges_;  ///< triangles whose polygons are faced together, or moved
+  std::vector<PixelRect> draw_rects_;  ///< per draw, in the whole frame
+  /// Per draw, and one past the last: its first element in the frame. A bitmap or an image counts as one
+  /// element.
+  std::vector<std::size_t> first_element_;
+  DrawRanges polygon_ranges_;  ///< triangles whose polygons have a common facing or offset
   std::size_t batch_count_ = 1;
   BinBatches batches_;
   std::vector<WorkerCounts> worker_counts_;

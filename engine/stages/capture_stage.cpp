@@ -27,7 +27,7 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
   if (capture.draw_ids.empty() && capture.primitive_ids.empty() && capture.normals.empty() &&
       !count_fragments)
     return;
-  passes_.reserve(4);  // frames of passes point into them
+  passes_.reserve(4);  // passes are referred to
   if (!capture.draw_ids.empty()) add_pass(PassKind::draw_ids, commands, frame);
   if (!capture.primitive_ids.empty()) add_pass(PassKind::primitive_ids, commands, frame);
   if (!capture.normals.empty()) add_pass(PassKind::normals, commands, frame);
@@ -36,7 +36,7 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
 
 void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame) {
   Pass& pass = passes_.emplace_back(Pass{kind, frame, commands.tile_draws, commands.clears, {}});
-  pass.ops.reserve(pass.draws.size());  // draws point into it
+  pass.ops.reserve(pass.draws.size());  // draws refer to it
   for (std::size_t i = 0; i < pass.draws.size(); ++i) {
     TileDraw& draw = pass.draws[i];
     const std::size_t plan = commands.tile_draw_plan[i];
@@ -44,14 +44,14 @@ void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const 
       draw.uses_depth = false;
       draw.ops = nullptr;
     }
-    if (draw.ops == nullptr) draw.texture = nullptr;                    // else its alpha may be tested
+    if (draw.ops == nullptr) draw.texture = nullptr;                    // otherwise the alpha test needs it
     if (draw.write_mask == 0 && kind != PassKind::fragments) continue;  // depth alone
     draw.write_mask = 0xffffffffu;
     draw.deferred = kind == PassKind::normals;
     draw.source = ColorSource::constant;
     draw.packed_color = static_cast<std::uint32_t>(commands.plan_draw[plan]);
     if (draw.ops != nullptr) {
-      // The tests are what decides who is seen; what becomes of the colour does not.
+      // Only tests decide visibility; operations on colours do not.
       FragmentOps& ops = pass.ops.emplace_back(*draw.ops);
       ops.blend = ops.dither = false;
       ops.logic = LogicOp::copy;
@@ -61,7 +61,7 @@ void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const 
           kind == PassKind::primitive_ids ? TileDraw::IdOutput::primitive : TileDraw::IdOutput::draw;
     }
     if (kind == PassKind::normals && draw.texels != nullptr) {
-      // As if nothing had been drawn: they have none.
+      // Bitmaps and images have no normals: they count as background.
       draw.deferred = false;
       draw.id_output = TileDraw::IdOutput::draw;
       draw.packed_color = Capture::kNothing;
@@ -72,7 +72,7 @@ void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const 
     } else if (kind == PassKind::normals) {
       draw.source = ColorSource::per_pixel;
       draw.captures_normals = true;
-      draw.first_attribute = commands.plans[plan]->captured_normal_offset;
+      draw.first_attribute = commands.plans[plan]->varyings.captured_normal;
       draw.attribute_count = 3;
       for (int c = 0; c < 3; ++c) draw.fields[c] = static_cast<std::uint8_t>(kNormalX + c);
       draw.programs[0] = draw.programs[1] = &normal_program_;
@@ -85,10 +85,10 @@ void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const 
   }
   pass.frame.layout = rgb_layout(24);
   pass.frame.palette_search = nullptr;
-  pass.frame.samples = 1;  // what is seen at the centre
+  pass.frame.samples = 1;  // visibility at the pixel centre
   pass.frame.draws = pass.draws.data();
   pass.frame.clears = pass.clears.data();
-  pass.frame.accumulation_count = 0;  // colours that come back from there are no draw's
+  pass.frame.accumulation_count = 0;  // accumulated colours belong to no draw
 }
 
 std::uint64_t CaptureStage::render_pass(const Pass& pass, int row, int column,

@@ -1,5 +1,5 @@
-// What a frame tells of its pixels besides their colour: the tiles are rendered once more for each thing
-// asked for, with the frame's own coverage, depth and order, and with numbers where colours were.
+// Captures: tiles are rendered once more per requested quantity, with the coverage, depth and order of the
+// frame, and with numbers in place of colours.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@ namespace tessera::detail {
 
 class CaptureStage {
  public:
-  /// `frame` and `commands` are read as long as this lives. Throws std::bad_alloc.
+  /// `frame` and `commands` must outlive it. Throws std::bad_alloc.
   CaptureStage(const FrameCommands& commands, const TileFrame& frame, const Capture& capture,
                bool count_fragments, InstructionSet isa);
 
   bool needs_normals() const { return !capture_.normals.empty(); }
   bool any() const { return !passes_.empty(); }
-  /// Renders a tile for each pass. `load_tests()` brings the tile's depth and stencil before the frame.
-  /// Returns the fragments counted. Distinct tiles may run at the same time, each in a workspace of its own.
+  /// Renders a tile once per pass. `load_tests()` restores the tile's depth and stencil from before the
+  /// frame. Returns the number of fragments. Distinct tiles may run concurrently, each in its own workspace.
   template <class LoadTests>
   std::uint64_t render_tile(int row, int column, TileWorkspace& workspace,
                             const LoadTests& load_tests) const {
@@ -39,7 +39,7 @@ class CaptureStage {
     TileFrame frame;
     std::vector<TileDraw> draws;
     std::vector<TileClear> clears;
-    std::vector<FragmentOps> ops;  ///< the tests of draws that have operations
+    std::vector<FragmentOps> ops;  ///< tests of the draws with fragment operations
   };
   void add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame);
   std::uint64_t render_pass(const Pass& pass, int row, int column, TileWorkspace& workspace) const;
@@ -49,10 +49,10 @@ class CaptureStage {
   Capture capture_;
   TileGrid grid_;
   RenderTile* render_;
-  LightingProgram normal_program_;           ///< makes normals of length 1, and no light
-  std::vector<std::uint32_t> triangle_ids_;  ///< 0, 1, 2, ...: the triangles of the longest mesh
-  std::vector<std::vector<std::uint32_t>>
-      polygon_ids_;  ///< of each draw: the polygon of each triangle, where it has several
+  LightingProgram normal_program_;           ///< normalizes normals, without lights
+  std::vector<std::uint32_t> triangle_ids_;  ///< 0, 1, 2, ... up to the longest mesh
+  /// Per draw: the polygon of each triangle; empty if each triangle is a polygon.
+  std::vector<std::vector<std::uint32_t>> polygon_ids_;
   std::vector<Pass> passes_;
 };
 

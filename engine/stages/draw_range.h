@@ -1,4 +1,4 @@
-// Work on several draws, cut into tasks.
+// Tasks over the vertices or elements of several draws.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,10 @@ struct DrawRange {
   std::size_t draw, first, last;
 };
 
-/// The ranges that draws are cut into. Only whole draws are listed, not their ranges, which grow with the
-/// scene: each is worked out when it is asked for.
+/// Splits draws into ranges. Ranges are computed on access, not stored.
 class DrawRanges {
  public:
-  /// Cuts `count(draw)` of each of so many draws into ranges of `range_size`; the last one of a draw may be
+  /// Splits count(draw) items of each draw into ranges of `range_size`; the last one of a draw may be
   /// shorter. Throws std::bad_alloc. @pre range_size > 0
   template <class Count>
   void split(std::size_t draws, const Count& count, std::size_t range_size) {
@@ -45,7 +44,7 @@ class DrawRanges {
   struct SplitDraw {
     std::size_t draw, count, first_range;
   };
-  std::vector<SplitDraw> split_draws_;  // draws of which there is something
+  std::vector<SplitDraw> split_draws_;  // draws with at least one item
   std::size_t range_size_ = 1, size_ = 0;
 };
 

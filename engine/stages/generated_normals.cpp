@@ -24,7 +24,7 @@ std::array<std::size_t, 3> vertices_of(const MeshArrays& mesh, std::size_t trian
   return {mesh.vertex_at(corners[0]), mesh.vertex_at(corners[1]), mesh.vertex_at(corners[2])};
 }
 
-// Twice the area times the unit normal: the sum over the polygon's triangles, which is the same however it is
+// Twice the area times the unit normal: the sum over the polygon's triangles, which does not depend on the
 // split.
 glm::dvec3 area_normal(const MeshArrays& mesh, std::size_t first, std::size_t last) {
   glm::dvec3 sum(0);
@@ -43,11 +43,12 @@ void store_unit(const glm::dvec3& v, float* out) {
   for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(n[k]);
 }
 
-using Key = std::array<std::uint32_t, 4>;  // bits: a NaN is no number, not even the same as itself
+using Key = std::array<std::uint32_t, 4>;  // compared as bits: NaN differs from itself as a float
 Key key_at(const MeshArrays& mesh, std::size_t vertex) {
   const float* p = mesh.positions.at(vertex);
-  return std::bit_cast<Key>(std::array<float, 4>{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f,
-                                                 mesh.components == 4 ? p[3] + 0.0f : 1.0f});  // + 0: -0 is 0
+  return std::bit_cast<Key>(
+      std::array<float, 4>{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f,
+                           mesh.components == 4 ? p[3] + 0.0f : 1.0f});  // + 0 turns -0 into 0
 }
 std::uint64_t hash_of(const Key& key) {
   std::uint64_t hash = 0;
@@ -60,7 +61,7 @@ std::uint64_t hash_of(const Key& key) {
 
 constexpr std::size_t kMaxTasks = 64, kMaxPartitions = 64, kItemsPerTask = 1024, kVerticesPerPartition = 4096;
 
-/// A power of two, for open addressing.
+/// Size of an open-addressing table: a power of two.
 std::size_t table_slots(std::size_t vertices) { return std::bit_ceil(2 * vertices + 1); }
 
 }  // namespace
@@ -81,8 +82,8 @@ void SmoothNormals::PartitionedItems<Item>::reserve(const Partitioning& partitio
   ends.resize(partitioning.tasks * partitioning.partitions);
 }
 
-/// @param for_each_of_task  calls its second argument with the partition and each item of a task; it is
-/// called twice
+/// @param for_each_of_task  calls its second argument with the partition and each item of a task. Called
+/// twice
 template <class Item>
 template <class ForEach>
 void SmoothNormals::PartitionedItems<Item>::sort(WorkerPool& worker_pool, const Partitioning& partitioning,
@@ -115,7 +116,7 @@ void SmoothNormals::PartitionedItems<Item>::for_each_in(std::size_t partition, c
     work(items.data()[i]);
 }
 
-// For each vertex the first one at the very same position: open addressing over the bits of the coordinates.
+// Per vertex: the first vertex at the same position. Open addressing over the bits of the coordinates.
 void SmoothNormals::find_first_at_positions(const MeshArrays& mesh, WorkerPool& worker_pool,
                                             const Partitioning& partitioning) {
   std::uint8_t* const partition = partition_.resize(mesh.vertices);
@@ -167,18 +168,17 @@ void SmoothNormals::sum_faces(const MeshArrays& mesh, WorkerPool& worker_pool,
     for (std::size_t f = faces * task / partitioning.tasks; f < faces * (task + 1) / partitioning.tasks;
          ++f) {
       if (!std::isfinite(areas[f].x + areas[f].y + areas[f].z))
-        continue;  // this polygon will be dropped; its neighbours keep theirs
-      // A polygon's first triangle has three of its vertices, each further one another: the one that those
-      // before it have not.
+        continue;  // the polygon will be dropped; its neighbours keep their normals
+      // The first triangle of a polygon has three of its vertices; each further triangle adds one.
       for (const std::size_t v : vertices_of(mesh, f * each)) add_corner(v, f);
       for (std::size_t t = f * each + 1; t < (f + 1) * each; ++t)
         add_corner(mesh.vertex_at(added_corner(mesh.primitive, t)), f);
     }
   });
-  // A face counts once at each position, also where several of its corners lie there (a triangle has no area
-  // then). In each partition faces follow each other.
+  // A face counts once per position, even if several of its corners coincide. Within a partition, corners of
+  // a face are consecutive.
   constexpr std::uint32_t kNone = 0xffffffffu;
-  std::uint32_t* const last_face = table_.data();  // of each vertex; the table itself has served
+  std::uint32_t* const last_face = table_.data();  // per vertex; reuses the memory of the table
   if (each > 1)
     partitioning.for_each_range(worker_pool, mesh.vertices, [&](std::size_t first, std::size_t last) {
       std::fill(last_face + first, last_face + last, kNone);

@@ -1,4 +1,4 @@
-// Normals of meshes that have none.
+// Generated normals of meshes without normals.
 #pragma once
 
 #include <cstddef>
@@ -12,34 +12,33 @@
 
 namespace tessera::detail {
 
-/// Makes normals at vertices, in memory that one mesh after the other uses.
+/// Generates normals at vertices. Memory is reused from mesh to mesh.
 class SmoothNormals {
  public:
-  /// Takes the memory for meshes of so many vertices and elements, so that make() takes none for them. Throws
-  /// std::bad_alloc.
+  /// Allocates memory for meshes of this size; make() then allocates none. Throws std::bad_alloc.
   void reserve(std::size_t vertices, std::size_t elements);
-  /// For each vertex the area-weighted mean over the faces that have a vertex at the very same position, unit
-  /// length (or 0), in object space; 3 floats each. The same bits for any number of threads: each sum is made
-  /// in the faces' order. Throws std::bad_alloc.
-  /// @param normals  of 3 floats for each vertex
+  /// Per vertex: the area-weighted mean over the faces with a vertex at the same position, unit length or 0,
+  /// object space. Sums run in the order of the faces, so bits do not depend on the number of threads. Throws
+  /// std::bad_alloc.
+  /// @param normals  3 floats per vertex
   void make(const MeshArrays& mesh, WorkerPool& worker_pool, float* normals);
 
  private:
-  /// How a mesh is cut.
+  /// Partitioning of a mesh for parallel work.
   struct Partitioning {
     std::size_t tasks;       ///< ranges of its vertices or faces
-    std::size_t partitions;  ///< of its vertices: all at one position are in the same
+    std::size_t partitions;  ///< groups of vertices; equal positions are in the same group
 
     Partitioning(std::size_t vertices, std::size_t elements);
-    /// Calls work(first, last) for each task's range of `count` things.
+    /// Calls work(first, last) for each task's range of `count` items.
     template <class Work>
     void for_each_range(WorkerPool& worker_pool, std::size_t count, const Work& work) const;
   };
-  /// Items sorted by partition of the mesh, those of a partition in the order in which they came.
+  /// Items sorted by partition; stable.
   template <class Item>
   struct PartitionedItems {
     Scratch<Item> items;
-    Scratch<std::size_t> ends;  ///< of each task's items of each partition
+    Scratch<std::size_t> ends;  ///< per partition and task: end of its items
 
     void reserve(const Partitioning& partitioning, std::size_t count);
     template <class ForEach>
@@ -58,15 +57,15 @@ class SmoothNormals {
                                const Partitioning& partitioning);
   void sum_faces(const MeshArrays& mesh, WorkerPool& worker_pool, const Partitioning& partitioning);
 
-  Scratch<std::uint8_t> partition_;  // of each vertex: the same at the same position
+  Scratch<std::uint8_t> partition_;  // per vertex; equal for equal positions
   PartitionedItems<std::uint32_t> vertices_;
   Scratch<std::uint32_t> table_, first_;
-  Scratch<glm::dvec3> areas_, sums_;  // of faces; at the first vertices
+  Scratch<glm::dvec3> areas_, sums_;  // per face; per first vertex at a position
   PartitionedItems<Corner> corners_;
 };
 
-/// Of the faces that begin in triangles [first, last): for each triangle its face's normal, unit length (or
-/// 0), in object space; 3 floats each. Stands from 3 first on.
+/// Writes normals[3 t .. 3 t + 2] for each triangle t of the faces that begin in triangles [first, last): the
+/// normal of its face, unit length or 0, object space.
 void make_face_normals(const MeshArrays& mesh, std::size_t first, std::size_t last, float* normals);
 
 }  // namespace tessera::detail

@@ -9,8 +9,6 @@
 namespace tessera::detail {
 namespace {
 
-constexpr int kNormalField = kNormalX, kPositionField = kPositionX, kVertexField = kVertexR;
-
 StridedFloats normals_of(const GeometryDraw& draw) {
   if (draw.plan->face_normals) return {draw.buffers->face_normals.data(), 3};
   return draw.plan->smooth_normals ? StridedFloats{draw.buffers->smooth_normals.data(), 3}
@@ -22,11 +20,10 @@ template <class VertexOf>
 void load_vertex_colors(const MeshArrays& mesh, ShadingBatch& batch, std::size_t count,
                         const VertexOf& vertex) {
   for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexField + c][i] = mesh.color(vertex(i), c);
+    for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexR + c][i] = mesh.color(vertex(i), c);
 }
 
-// A vertex whose normal, colour, index or texture coordinate is not finite is dropped like one whose position
-// is not.
+// Marks vertices with a value that is not finite: their primitives are dropped, as for positions.
 std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t count,
                              std::uint8_t* outcodes) {
   std::uint8_t any = 0;
@@ -44,14 +41,14 @@ std::uint32_t packed_color_of(const GeometryDraw& draw, const ShadingBatch& batc
                              batch.field[kColorG][i], batch.field[kColorB][i]);
 }
 
-// Unlit: the vertex colours themselves, clamped as every colour is after the vertex stage.
+// Unlit: vertex colours, clamped like every result of the vertex stage.
 void copy_vertex_colors(ShadingBatch& batch, std::size_t count) {
   for (int c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < count; ++i)
-      batch.field[kColorR + c][i] = std::min(std::max(batch.field[kVertexField + c][i], 0.0f), 1.0f);
+      batch.field[kColorR + c][i] = std::min(std::max(batch.field[kVertexR + c][i], 0.0f), 1.0f);
 }
 
-// Unlit: the vertices' indices, masked as those are that come out of lighting.
+// Unlit: colour indices of the vertices, masked like results of index lighting.
 template <class VertexOf>
 void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size_t count,
                         const VertexOf& vertex) {
@@ -60,14 +57,21 @@ void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size
         masked_index(*draw.mesh->color_indices.at(vertex(i)), draw.layout->index_modulus());
 }
 
-// Where the colours of a batch go, and whose alpha they have.
+// Points that are shaded together.
 struct Batch {
   std::size_t first, count;
-  bool triangles;             ///< else vertices
-  float alpha[kBatchPoints];  ///< the vertices', where the draw uses them
+  bool triangles;             ///< triangles; false: vertices
+  float alpha[kBatchPoints];  ///< alpha of vertices, if DrawPlan::vertex_alpha
 };
 
-// Where the colours of one face of a batch go as floats, and how far one is from the next.
+std::size_t varying_stride(const DrawPlan& plan) { return static_cast<std::size_t>(plan.varyings.count); }
+
+/// Address of the varying at `offset` in the record of `vertex`.
+float* varying(const GeometryDraw& draw, std::size_t vertex, int offset) {
+  return draw.buffers->attributes.data() + vertex * varying_stride(*draw.plan) + offset;
+}
+
+// Float colours of one face of a batch: first colour, and distance between colours in floats.
 struct ColorOutput {
   float* first;
   std::size_t stride;
@@ -75,8 +79,7 @@ struct ColorOutput {
 ColorOutput color_output(const GeometryDraw& draw, const Batch& points, int face) {
   const DrawPlan& plan = *draw.plan;
   if (points.triangles) return {draw.buffers->face_colors[face].data() + 4 * points.first, 4};
-  const auto stride = static_cast<std::size_t>(plan.attribute_count);
-  return {draw.buffers->attributes.data() + points.first * stride + plan.color_floats() * face, stride};
+  return {varying(draw, points.first, plan.varyings.color[face]), varying_stride(plan)};
 }
 
 void store_indices(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
@@ -84,7 +87,7 @@ void store_indices(const GeometryDraw& draw, const ShadingBatch& batch, const Ba
   for (std::size_t i = 0; i < points.count; ++i) out[i * stride] = batch.field[kColorR][i];
 }
 
-// For operations that take colours: r g b a for each point.
+// Colours for fragment operations: r g b a per point.
 void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
   const DrawPlan& plan = *draw.plan;
   auto [out, stride] = color_output(draw, points, face);
@@ -98,7 +101,7 @@ void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch
   }
 }
 
-// A texture of one colour over colours that are clamped.
+// Applies a texture of one colour to clamped colours.
 void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto color = texture_env_reference(
@@ -108,7 +111,7 @@ void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t c
   }
 }
 
-// The colour of a batch goes where the draw's triangles will look for it.
+// Stores the colours of a batch in the form that the tiles read.
 void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, int face,
                   InstructionSet isa) {
   const DrawPlan& plan = *draw.plan;
@@ -136,7 +139,7 @@ void light_batch(const GeometryDraw& draw, const LightingProgram& program, Shadi
   store_colors(draw, batch, points, face, isa);
 }
 
-// Everything about the colour of one batch of vertices or faces whose inputs stand in the batch.
+// Lights, textures and stores the colours of a batch whose inputs are loaded.
 void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, InstructionSet isa) {
   const DrawPlan& plan = *draw.plan;
   if (!plan.lit) {
@@ -145,7 +148,7 @@ void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, const Batch& poi
     return;
   }
   if (plan.two_sided) {
-    ShadingBatch back = batch;  // preparing a batch turns its normals
+    ShadingBatch back = batch;  // lighting modifies the normals of its batch
     light_batch(draw, plan.back, back, points, 1, isa);
   }
   light_batch(draw, plan.front, batch, points, 0, isa);
@@ -160,57 +163,50 @@ Batch batch_of(const GeometryDraw& draw, std::size_t first, std::size_t count, b
   return points;
 }
 
-bool needs_normal(const DrawPlan& plan) {
-  return plan.lit && (plan.front.needs_normal || (plan.two_sided && plan.back.needs_normal));
-}
-bool needs_position(const DrawPlan& plan) {
-  return plan.lit && (plan.front.needs_position || (plan.two_sided && plan.back.needs_position));
-}
-
-// Per-pixel lighting: the vertex stage only carries its inputs into eye space.
+// Per-pixel lighting: stores its inputs in eye space.
 void store_lighting_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t first,
                            std::size_t count) {
-  const DrawPlan& plan = *draw.plan;
-  const auto stride = static_cast<std::size_t>(plan.attribute_count);
-  float* out = draw.buffers->attributes.data() + first * stride;
-  const auto store = [&](int field) {
+  const VaryingLayout& layout = draw.plan->varyings;
+  const std::size_t stride = varying_stride(*draw.plan);
+  const auto store = [&](int offset, int field) {
+    if (offset < 0) return;
+    float* const out = varying(draw, first, offset);
     for (int c = 0; c < 3; ++c)
       for (std::size_t i = 0; i < count; ++i)
         out[i * stride + static_cast<std::size_t>(c)] = batch.field[field + c][i];
-    out += 3;
   };
-  if (needs_normal(plan)) store(kNormalField);
-  if (needs_position(plan)) store(kPositionField);
-  if (plan.uses_vertex_colors) store(kVertexField);
-  if (plan.float_colors && plan.vertex_alpha)
-    for (std::size_t i = 0; i < count; ++i)
-      out[i * stride] = draw.mesh->color(first + i, 3);  // clamped at the pixel, as the colour
+  store(layout.normal, kNormalX);
+  store(layout.position, kPositionX);
+  store(layout.color[0], kVertexR);
+  if (layout.alpha[0] < 0) return;
+  float* const alpha = varying(draw, first, layout.alpha[0]);
+  for (std::size_t i = 0; i < count; ++i)
+    alpha[i * stride] = draw.mesh->color(first + i, 3);  // clamped at the pixel, like the colour
 }
 
 void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t count) {
-  const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
-  float* out = draw.buffers->attributes.data() + first * stride + draw.plan->texcoord_offset;
+  const std::size_t stride = varying_stride(*draw.plan);
+  float* out = varying(draw, first, draw.plan->varyings.texcoord);
   for (std::size_t i = 0; i < count; ++i, out += stride)
     std::copy_n(draw.mesh->texcoords.at(first + i), 2, out);
 }
 
-// What a capture wants: eye-space normals, whatever the shading does with them.
+// Eye-space normals for captures, independent of shading.
 void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::size_t count,
                             InstructionSet isa) {
   const StridedFloats normals =
       draw.mesh->normals ? draw.mesh->normals : StridedFloats{draw.buffers->smooth_normals.data(), 3};
   float eye[3][kVertexBatch];
   eye_normals(isa)(draw.plan->captured_eye, normals.from(first), count, eye[0], eye[1], eye[2]);
-  const auto stride = static_cast<std::size_t>(draw.plan->attribute_count);
-  float* out = draw.buffers->attributes.data() + first * stride + draw.plan->captured_normal_offset;
+  const std::size_t stride = varying_stride(*draw.plan);
+  float* out = varying(draw, first, draw.plan->varyings.captured_normal);
   for (std::size_t i = 0; i < count; ++i, out += stride) {
     const bool is_finite = std::isfinite(eye[0][i]) && std::isfinite(eye[1][i]) && std::isfinite(eye[2][i]);
-    for (std::size_t c = 0; c < 3; ++c)
-      out[c] = is_finite ? eye[c][i] : 0;  // a capture drops nothing of the picture
+    for (std::size_t c = 0; c < 3; ++c) out[c] = is_finite ? eye[c][i] : 0;  // a capture drops no primitive
   }
 }
 
-// The corners of each element, its provoking vertex where provoking_place() says.
+// Corners of each element, with its provoking vertex at provoking_place().
 void list_corners(const GeometryDraw& draw, std::size_t first, std::size_t last) {
   const MeshArrays& mesh = *draw.mesh;
   const auto each = static_cast<std::size_t>(mesh.topology());
@@ -221,8 +217,8 @@ void list_corners(const GeometryDraw& draw, std::size_t first, std::size_t last)
   }
 }
 
-// Around the first triangle, with what each further one adds before its end. From the same vertex on under
-// both conventions.
+// Boundary of each polygon: the corners of its first triangle, then the corner that each further triangle
+// adds. The start does not depend on the provoking vertex.
 void list_boundaries(const GeometryDraw& draw, std::size_t first, std::size_t last) {
   const MeshArrays& mesh = *draw.mesh;
   const std::size_t each = mesh.triangles_per_polygon(), first_polygon = (first + each - 1) / each;
@@ -248,7 +244,7 @@ void prepare_geometry(const GeometryDraw& draw) {
   const std::size_t vertices = draw.mesh->vertices, triangles = draw.mesh->elements;
   buffers.vertices.resize(vertices);
   buffers.outcodes.resize(vertices);
-  buffers.attributes.resize(vertices * static_cast<std::size_t>(plan.attribute_count) +
+  buffers.attributes.resize(vertices * varying_stride(plan) +
                             2 * kAttributePadding);  // read in whole vectors
   for (int face = 0; face < 2; ++face)
     buffers.face_colors[face].resize(plan.float_colors && plan.has_per_triangle_colors() &&
@@ -296,18 +292,18 @@ void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t l
       outcodes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.outcodes.data() + at);
     if (plan.uses_color_indices)
       outcodes |= mark_non_finite(mesh.color_indices.from(at), 1, count, buffers.outcodes.data() + at);
-    if (plan.texcoord_offset >= 0) {
+    if (plan.varyings.texcoord >= 0) {
       outcodes |= mark_non_finite(mesh.texcoords.from(at), 2, count, buffers.outcodes.data() + at);
       store_texcoords(draw, at, count);
     }
-    if (plan.captured_normal_offset >= 0) store_captured_normals(draw, at, count, isa);
-    if (needs_normal(plan) && !plan.face_normals)
+    if (plan.varyings.captured_normal >= 0) store_captured_normals(draw, at, count, isa);
+    if (plan.needs_normal() && !plan.face_normals)
       outcodes |= mark_non_finite(normals.from(at), 3, count, buffers.outcodes.data() + at);
     if (!colors_matter || plan.has_per_triangle_colors()) continue;
-    if (needs_normal(plan))
+    if (plan.needs_normal())
       eye_normals(isa)(plan.eye, normals.from(at), count, batch.field[kNormalX], batch.field[kNormalY],
                        batch.field[kNormalZ]);
-    if (needs_position(plan))
+    if (plan.needs_position())
       eye_positions(isa)(plan.eye, positions, mesh.components, count, batch.field[kPositionX],
                          batch.field[kPositionY], batch.field[kPositionZ]);
     if (plan.uses_vertex_colors)
@@ -333,7 +329,7 @@ void compute_flat_colors(const GeometryDraw& draw, std::size_t first, std::size_
   float positions[4 * kVertexBatch], normals[3 * kVertexBatch];
   for (std::size_t at = first; at < last; at += kVertexBatch) {
     const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
-    if (needs_normal(plan)) {
+    if (plan.needs_normal()) {
       for (std::size_t i = 0; i < count && !plan.face_normals; ++i)
         std::copy_n(mesh.normals.at(vertex_of(at + i)), 3, normals + 3 * i);
       const StridedFloats of_triangles =
@@ -341,7 +337,7 @@ void compute_flat_colors(const GeometryDraw& draw, std::size_t first, std::size_
       eye_normals(isa)(plan.eye, of_triangles, count, batch.field[kNormalX], batch.field[kNormalY],
                        batch.field[kNormalZ]);
     }
-    if (needs_position(plan)) {
+    if (plan.needs_position()) {
       for (std::size_t i = 0; i < count; ++i)
         std::copy_n(mesh.positions.at(vertex_of(at + i)), components, positions + i * components);
       eye_positions(isa)(plan.eye, {positions, components}, mesh.components, count, batch.field[kPositionX],

@@ -1,4 +1,4 @@
-// The vertex stage of a draw: positions into raster space, and colours or what the pixels interpolate.
+// The geometry of a draw: positions into raster space, packed colors and varyings.
 #pragma once
 
 #include <atomic>
@@ -12,25 +12,25 @@
 
 namespace tessera::detail {
 
-/// The memory of a draw's vertices, kept from frame to frame.
+/// Memory of a draw's vertices, kept from frame to frame.
 struct DrawBuffers {
   Scratch<WindowVertex> vertices;
   Scratch<std::uint8_t> outcodes;
   Scratch<float> attributes;
   Scratch<std::uint32_t> packed_colors[2];
-  Scratch<float> face_colors[2];    ///< r g b a for each triangle, of flat draws with operations
-  Scratch<std::uint32_t> indices;   ///< of elements: widened from 16 bits, or made of other primitives
-  Scratch<Facing> facing;           ///< of each triangle, where several make a polygon or outlines are drawn
-  Scratch<std::uint32_t> boundary;  ///< of each polygon the vertices in order, where outlines are drawn
-  Scratch<double>
-      depth_offsets;  ///< of each triangle's polygon, where several make one or clipping cuts some
+  Scratch<float> face_colors[2];    ///< per face; r g b a per triangle: flat draws with fragment operations
+  Scratch<std::uint32_t> indices;   ///< per element corner: generated, or widened from 16 bits
+  Scratch<Facing> facing;           ///< per triangle, if polygons have several or are outlined
+  Scratch<std::uint32_t> boundary;  ///< vertices of each polygon in order, for outlines
+  /// Per triangle: the offset of its polygon, if polygons have several triangles or are clipped.
+  Scratch<double> depth_offsets;
   PolygonModes modes;
-  Scratch<float> smooth_normals;          ///< generated, for the plan or for a capture
-  Scratch<float> face_normals;            ///< generated, of each triangle
-  std::atomic<bool> any_outcode = false;  ///< some vertex has a clip code
+  Scratch<float> smooth_normals;          ///< generated, per vertex: for lighting or captures
+  Scratch<float> face_normals;            ///< generated, per triangle
+  std::atomic<bool> any_outcode = false;  ///< a vertex has an outcode
 };
 
-/// What the vertex stage works on.
+/// A draw in the geometry stage.
 struct GeometryDraw {
   const MeshArrays* mesh = nullptr;
   const DrawPlan* plan = nullptr;
@@ -44,38 +44,37 @@ struct GeometryDraw {
     return mesh->indices16 != nullptr ||
            (p != Primitive::points && p != Primitive::lines && p != Primitive::triangles);
   }
-  /// As many for each element as it has corners, of 32 bits, or null: vertices in order. @pre
-  /// prepare_geometry
+  /// Vertices of each element's corners; null: vertices in order. @pre prepare_geometry
   const std::uint32_t* indices() const {
     return generates_indices() ? buffers->indices.data() : mesh->indices;
   }
-  /// Of each triangle, or null: its own area decides. @pre classify_polygon_facing
+  /// Per triangle; null: the area of the triangle decides. @pre classify_polygon_facing
   const Facing* facing() const { return has_polygon_facing() ? buffers->facing.data() : nullptr; }
-  /// Of each triangle's polygon, or null: each has its own, or there are none; NaN: that one has its own.
-  /// @pre offset_polygons
+  /// Per triangle: the depth offset of its polygon; NaN: computed from the triangle. Null: all are. @pre
+  /// offset_polygons
   const double* depth_offsets() const {
     return has_polygon_offsets() ? buffers->depth_offsets.data() : nullptr;
   }
-  /// It has elements whose corners or normals are not there yet. @see assemble_elements
+  /// Needs assemble_elements().
   bool assembles() const { return generates_indices() || plan->outlines || plan->face_normals; }
   bool wants_smooth_normals() const {
-    return plan->smooth_normals || (plan->captured_normal_offset >= 0 && !mesh->normals);
+    return plan->smooth_normals || (plan->varyings.captured_normal >= 0 && !mesh->normals);
   }
   bool has_polygon_facing() const { return plan->outlines || mesh->triangles_per_polygon() > 1; }
-  /// Once the vertices are there.
+  /// @pre process_vertices
   bool has_polygon_offsets() const {
     return plan->has_offset() && (has_polygon_facing() || buffers->any_outcode);
   }
 };
 
-/// Takes the memory. Throws std::bad_alloc.
+/// Allocates the memory. Throws std::bad_alloc.
 void prepare_geometry(const GeometryDraw& draw);
-/// Corners of elements [first, last), and what belongs to polygons that begin among them; distinct ranges may
-/// run at the same time.
+/// Generates the corners of elements [first, last), and outlines and normals of polygons that begin there.
+/// Distinct ranges may run concurrently.
 void assemble_elements(const GeometryDraw& draw, std::size_t first, std::size_t last);
-/// Vertices [first, last); distinct ranges may run at the same time.
+/// Transforms and shades vertices [first, last). Distinct ranges may run concurrently.
 void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t last, InstructionSet isa);
-/// Face colours of triangles [first, last), for plans that color triangles.
+/// Colours of triangles [first, last). @pre plan->has_per_triangle_colors()
 void compute_flat_colors(const GeometryDraw& draw, std::size_t first, std::size_t last, InstructionSet isa);
 
 }  // namespace tessera::detail

@@ -24,7 +24,7 @@ void NormalStage::run(std::span<const GeometryDraw> draws, WorkerPool& worker_po
       continue;
     }
     small_.push_back(&draw);
-    if (mesh.topology() != Topology::triangles) continue;  // its normals are 0
+    if (mesh.topology() != Topology::triangles) continue;  // points and lines have normal 0 0 0
     most_vertices = std::max(most_vertices, mesh.vertices);
     most_elements = std::max(most_elements, mesh.elements);
   }
@@ -33,7 +33,7 @@ void NormalStage::run(std::span<const GeometryDraw> draws, WorkerPool& worker_po
   while (generators_.size() < workers) generators_.emplace_back();
   for (std::size_t k = 0; k < workers; ++k)
     generators_[k].normals.reserve(most_vertices,
-                                   most_elements);  // whoever has the largest one, and in whichever frame
+                                   most_elements);  // any worker may get the largest mesh
   progress.begin_stage(FrameStage::vertices, done, small_.size());
   worker_pool.for_each(small_.size(), [&](std::size_t i, int worker) {
     const GeometryDraw& draw = *small_[i];

@@ -1,4 +1,4 @@
-// The smooth normals of a frame's meshes that have none.
+// Generated smooth normals of meshes without normals.
 #pragma once
 
 #include <span>
@@ -11,12 +11,12 @@
 
 namespace tessera::detail {
 
-/// Memory for them is kept from frame to frame.
+/// Memory is kept from frame to frame.
 class NormalStage {
  public:
-  /// Makes those that draws want: of a large mesh all workers together, each small one some worker alone.
-  /// Throws std::bad_alloc, and what FrameProgress::task() throws.
-  /// @param done  share of the frame that is done then
+  /// Generates the normals that draws need: large meshes by all workers together, small ones by one worker
+  /// each. Throws std::bad_alloc, and exceptions of FrameProgress::task().
+  /// @param done  share of the frame that is done at the end
   void run(std::span<const GeometryDraw> draws, WorkerPool& worker_pool, FrameProgress& progress,
            double done);
 
@@ -25,7 +25,7 @@ class NormalStage {
     SmoothNormals normals;
     WorkerPool serial_pool{1};
   };
-  std::vector<Generator> generators_;  // one for each worker that has ever been needed
+  std::vector<Generator> generators_;  // per worker that was ever needed
   std::vector<const GeometryDraw*> small_;
 };
 

@@ -1,4 +1,4 @@
-// Working memory that is kept from frame to frame and never cleared.
+// Uninitialized working memory that is kept from frame to frame.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ class Scratch {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
 
  public:
-  /// Room for `count` elements, uninitialized. Throws std::bad_alloc; then what was there before is gone.
+  /// Allocates at least `count` uninitialized elements. Old contents are lost. Throws std::bad_alloc.
   T* resize(std::size_t count) {
     if (count > capacity_) {
       memory_.reset();

@@ -19,8 +19,7 @@ bool covers_frame(const TileClear& clear, const TileGrid& grid) {
 
 constexpr std::size_t kLoadClasses = 4 * 64;
 static_assert(kLoadClasses - 1 <= std::numeric_limits<std::uint8_t>::max());
-/// Four classes for each power of two: loads of one class differ by less than a quarter, and a greater load
-/// is never of a lower class.
+/// Four classes per power of two: loads of one class differ by less than 25 %. Monotonic.
 std::uint8_t load_class_of(std::uint64_t triangles) {
   if (triangles < 8) return static_cast<std::uint8_t>(triangles);
   const int highest_bit = std::bit_width(triangles) - 1;
@@ -28,14 +27,12 @@ std::uint8_t load_class_of(std::uint64_t triangles) {
                                    static_cast<int>(triangles >> (highest_bit - 2) & 3));
 }
 
-/// Deals strips of one load_class, `sorted` ones from `begin` to before `end`. Place p in the order of
-/// weights belongs to share p % shares, as its number p / shares, so that each share has as many of every
-/// load_class, or one more, and weights do not rise in it. Which strips of the load_class take a share's
-/// places is free: it is neighbours.
+/// Distributes the strips of one load class, sorted[begin, end), over the shares. Place p in the order of
+/// loads is place p / shares of share p % shares: shares have equal numbers of every class, up to one, and
+/// loads do not increase within a share. Neighbouring strips go to the same share.
 void distribute(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t end, std::size_t shares,
                 std::vector<TileStrip>& distributed) {
-  // Where there are fewer strips than shares, only begin % shares and those that follow it have a place among
-  // these.
+  // With fewer strips than shares, only the shares from begin % shares on receive one.
   const std::size_t served = std::min(end - begin, shares),
                     first_share = served < shares ? begin % shares : 0;
   for (std::size_t k = 0, next = begin; k < served; ++k) {
@@ -60,20 +57,20 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
       render_(render_tile(isa)),
       store_planes_(store_planes_for(isa)),
       load_planes_(load_planes_for(isa)),
-      buffered_tiles_(commands.color.store ? tiles_per_store(isa, frame.grid.tile_size) : 1) {
+      buffered_tiles_(commands.attachments.color.stores() ? tiles_per_store(isa, frame.grid.tile_size) : 1) {
   if (image == nullptr) return;
   target_region_ = target_region(*image);
   const Palette* const palette = target.layout.index ? &target.palette : nullptr;
   const PixelOrder order = image->order == PixelOrder::rgba8 ? PixelOrder::rgba8 : PixelOrder::bgra8;
   if (scan_out_cache.scan_out) scan_out_cache.scan_out->set(target.layout, palette, order);
   else scan_out_cache.scan_out.emplace(target.layout, palette, order, isa);
-  // Where the picture is all that is wanted, and starts from a clear of all of it, a tile without triangles
-  // need not go through tile memory.
-  copies_cleared_row_ = !capture.any() && !commands.stores() && !commands.color.load &&
-                        !commands.clears.empty() && commands.accumulations.empty() &&
-                        std::all_of(commands.clears.begin(), commands.clears.end(), [&](const TileClear& c) {
-                          return covers_frame(c, frame.grid) && !c.dithered;
-                        });
+  // If only the picture is needed and the frame starts with a clear of all of it, tiles without triangles
+  // bypass tile memory.
+  copies_cleared_row_ =
+      !capture.any() && !commands.attachments.any_stores() && !commands.attachments.color.loads() &&
+      !commands.clears.empty() && commands.accumulations.empty() &&
+      std::all_of(commands.clears.begin(), commands.clears.end(),
+                  [&](const TileClear& c) { return covers_frame(c, frame.grid) && !c.dithered; });
   if (!copies_cleared_row_) return;
   std::uint32_t word = 0;
   for (const TileClear& clear : commands.clears) word = clear.color ? clear.packed_color : word;
@@ -91,10 +88,10 @@ void TileStage::build_strips(const TileRange& tiles, const WorkerPool& workers, 
   const auto is_cleared = [&](int row, int column) {
     return copies_cleared_row_ && batches.known_empty(row * grid.columns() + column);
   };
-  // Tiles that share a cache line of a plane belong to one worker.
-  const int length = commands_.stores() ? kLinePixels / grid.tile_size : 1;
+  // Tiles that share a cache line of a plane go to one worker.
+  const int length = commands_.attachments.any_stores() ? kLinePixels / grid.tile_size : 1;
   std::array<std::uint32_t, kLoadClasses>
-      next{};  // how many strips have a load_class, then where the next one of them goes
+      next{};  // per class: number of strips, then place of its next strip
   memory.strips.clear();
   for (int row = tiles.y0; row < tiles.y1; ++row) {
     for (int column = tiles.x0, end; column < tiles.x1; column = end) {
@@ -130,7 +127,7 @@ void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCo
       colors[t] = workspace.select_color(t);
       render_tile_at(strip.row, first + static_cast<int>(t), workspace, counts);
     }
-    if (commands_.color.store)
+    if (commands_.attachments.color.stores())
       store_planes_({colors.data(), count}, {first * size, strip.row * size, size, 0}, target_.color.planes,
                     ~0u);
   }
@@ -140,29 +137,29 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   const TileGrid& grid = frame_.grid;
   const int size = grid.tile_size, x0 = column * size, y0 = row * size;
   const bool shown = !intersect(target_region_, {x0, y0, x0 + size, y0 + size}).empty();
-  if (!shown && !commands_.stores() && !capture_.any()) return;
+  if (!shown && !commands_.attachments.any_stores() && !capture_.any()) return;
   const TilePlace color_place{x0, y0, size, 0},
       depth_place{x0, y0, size, stored_depth_from_key(target_.depth_format, 0)};
   auto* depth_words = reinterpret_cast<std::uint32_t*>(workspace.depth());
   auto* stencil_words =
-      commands_.stencil.used ? reinterpret_cast<std::uint32_t*>(workspace.stencil()) : nullptr;
+      commands_.attachments.stencil.used() ? reinterpret_cast<std::uint32_t*>(workspace.stencil()) : nullptr;
   const auto load_tests = [&] {
-    load(commands_.depth, target_.depth, depth_words, depth_place);
-    load(commands_.stencil, target_.stencil, stencil_words, color_place);
+    load(commands_.attachments.depth, target_.depth, depth_words, depth_place);
+    load(commands_.attachments.stencil, target_.stencil, stencil_words, color_place);
   };
   if (capture_.any()) counts.fragments += capture_.render_tile(row, column, workspace, load_tests);
-  load(commands_.color, target_.color, workspace.color(), color_place);
+  load(commands_.attachments.color, target_.color, workspace.color(), color_place);
   load_tests();
-  if (commands_.accumulation.used) load_accumulation(color_place, workspace.accumulation());
+  if (commands_.attachments.accumulation.used()) load_accumulation(color_place, workspace.accumulation());
   const TileCounts tile = render_(frame_, row * grid.columns() + column, workspace);
   counts.shaded_pixels += tile.shaded_pixels;
   counts.touched += tile.touched ? 1 : 0;
   if (shown) scan_out(x0, y0, workspace);
-  store(commands_.depth, target_.depth, depth_words, depth_place);
-  store(commands_.stencil, target_.stencil, stencil_words, color_place);
-  if (commands_.accumulation.store)
+  store(commands_.attachments.depth, target_.depth, depth_words, depth_place);
+  store(commands_.attachments.stencil, target_.stencil, stencil_words, color_place);
+  if (commands_.attachments.accumulation.stores())
     for (std::size_t c = 0; c < 4; ++c)
-      store(commands_.accumulation, target_.accumulation[c],
+      store(commands_.attachments.accumulation, target_.accumulation[c],
             reinterpret_cast<const std::uint32_t*>(workspace.accumulation()[c]), color_place);
 }
 
@@ -177,7 +174,7 @@ void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
                                    image_->stride_bytes);
     return;
   }
-  // The image's edge runs through the tile: by way of a picture of the whole tile.
+  // The edge of the region crosses the tile: convert the whole tile, then copy the part inside.
   std::uint8_t pixels[4 * kMaxTileSize * kMaxTileSize];
   scan_out_cache_.scan_out->tile(workspace.color(), size, width, height, pixels, std::ptrdiff_t{4} * size);
   for (int y = region.y0; y < region.y1; ++y)
@@ -185,24 +182,24 @@ void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
                 4 * static_cast<std::size_t>(region.x1 - region.x0));
 }
 
-void TileStage::load(const AttachmentOps& attachment_ops, const Attachment& stored, std::uint32_t* words,
+void TileStage::load(const AttachmentOps& ops, const Attachment& stored, std::uint32_t* words,
                      const TilePlace& place) const {
-  if (!attachment_ops.used || !attachment_ops.load) return;
+  if (!ops.loads()) return;
   if (stored.content == Attachment::Content::fast_cleared)
     std::fill_n(words, place.tile_size * place.tile_size, stored.clear_value ^ place.flip);
   else load_planes_(words, place, stored.planes);
 }
 
-void TileStage::store(const AttachmentOps& attachment_ops, Attachment& stored, const std::uint32_t* words,
+void TileStage::store(const AttachmentOps& ops, Attachment& stored, const std::uint32_t* words,
                       const TilePlace& place) const {
-  if (attachment_ops.store) store_planes_({&words, 1}, place, stored.planes, ~0u);
+  if (ops.stores()) store_planes_({&words, 1}, place, stored.planes, ~0u);
 }
 
 void TileStage::load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const {
-  if (!commands_.accumulation.load) return;
+  if (!commands_.attachments.accumulation.loads()) return;
   for (std::size_t c = 0; c < 4; ++c) {
     auto* const words = reinterpret_cast<std::uint32_t*>(levels[c]);
-    load(commands_.accumulation, target_.accumulation[c], words, place);
+    load(commands_.attachments.accumulation, target_.accumulation[c], words, place);
     const int bits = target_.format.accumulation_bits, pixels = place.tile_size * place.tile_size;
     for (int i = 0; i < pixels; ++i) levels[c][i] = accumulation_level_from_stored(words[i], bits);
   }

@@ -1,4 +1,4 @@
-// The last stage of a frame: tiles are loaded, rendered, and stored where somebody will read them.
+// The tile stage: tiles are loaded, rendered, scanned out and stored.
 #pragma once
 
 #include <cstdint>
@@ -17,26 +17,27 @@
 
 namespace tessera::detail {
 
-/// Neighbouring tiles of a row that one worker takes.
+/// Neighbouring tiles of a row, rendered by one worker. Small: strips are sorted serially.
 struct TileStrip {
-  std::int16_t row = 0, first_column = 0,
-               last_column = 0;  // few bytes: one core sorts them while the others wait
-  bool cleared = false;          ///< no triangle touches them: they show the last clear
-  std::uint8_t load_class = 0;   ///< class of how many triangles do; more of them are never of a lower class
+  std::int16_t row = 0, first_column = 0, last_column = 0;
+  bool cleared = false;         ///< no triangle touches the tiles: they show the last clear
+  std::uint8_t load_class = 0;  ///< class of the number of triangles; monotonic
 };
 static_assert(kMaxFrameBufferSize / kMinTileSize <= std::numeric_limits<std::int16_t>::max());
 
-/// The strips of a frame, and what is needed on the way to them. Kept from frame to frame.
+/// The strips of a frame, and working memory. Kept from frame to frame.
 struct StripScratch {
-  std::vector<TileStrip> sorted;  ///< from the heaviest to the lightest
-  std::vector<TileStrip> strips;  ///< row by row, and then as build_strips() leaves them
+  std::vector<TileStrip> sorted;  ///< by decreasing load
+  std::vector<TileStrip> strips;  ///< row by row, then in the order of build_strips()
 };
 
 struct StripCounts {
-  std::uint64_t touched = 0, shaded_pixels = 0, fragments = 0;  ///< tiles, pixels, pixels
+  std::uint64_t touched = 0;        ///< tiles
+  std::uint64_t shaded_pixels = 0;  ///< colour evaluations
+  std::uint64_t fragments = 0;      ///< pixels
 };
 
-/// What one frame after the other is shown by.
+/// Scan-out tables, kept from frame to frame.
 struct ScanOutCache {
   std::optional<ScanOut> scan_out;
   std::vector<std::uint8_t> cleared_row;  ///< a row of the picture after the last clear
@@ -44,34 +45,34 @@ struct ScanOutCache {
 
 class TileStage {
  public:
-  /// All but the image's pixels and the target's planes is only read. `image` may be null.
-  ///
-  /// @param scan_out_cache  used as long as this lives
+  /// Writes the pixels of `image`, which may be null, and the planes of `target`. All arguments must outlive
+  /// it.
   TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target,
             const ImageTarget* image, const CaptureStage& capture, ScanOutCache& scan_out_cache,
             InstructionSet isa);
 
   const TileGrid& grid() const { return frame_.grid; }
-  /// Tiles whose colours a workspace keeps until they are stored together. Depth, stencil and accumulation
-  /// are seldom stored: tile by tile.
+  /// Number of tiles whose colours a workspace collects before storing them together. Depth, stencil and
+  /// accumulation are rarely stored: tile by tile.
   int buffered_tiles() const { return buffered_tiles_; }
-  /// For workers.for_each(): in each share strips with most triangles come first, give or take a quarter, so
-  /// that nobody waits for one that began last; and each share has as many of every load_class, or one more.
-  /// Where there are many more of a load_class than workers, those of a share are neighbours, much the same
-  /// ones as in a like frame before. Their order changes no bit.
-  ///
-  /// @param memory  whose `strips` they become; its `sorted` is used
+  /// Orders strips for WorkerPool::for_each().
+  /// - Within a worker's share by decreasing number of triangles (to within 25 %), so that long strips start
+  /// first.
+  /// - Shares have equal numbers of strips of every load class, up to one.
+  /// - Strips of a class within a share are neighbours, and mostly the same as in a similar frame before.
+  /// - The order changes no bit.
+  /// @param memory  receives `strips`; `sorted` is overwritten
   void build_strips(const TileRange& tiles, const WorkerPool& workers, StripScratch& memory) const;
-  /// Distinct strips may be rendered at the same time, each in a workspace of its own; adds to `counts`.
+  /// Renders a strip and adds to `counts`. Distinct strips may run concurrently, each in its own workspace.
   void render(const TileStrip& strip, TileWorkspace& workspace, StripCounts& counts) const;
 
  private:
   void render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const;
   void load_accumulation(const TilePlace& place, const AccumulatedPixels& levels) const;
   void scan_out(int x0, int y0, TileWorkspace& workspace) const;
-  void load(const AttachmentOps& attachment_ops, const Attachment& stored, std::uint32_t* words,
+  void load(const AttachmentOps& ops, const Attachment& stored, std::uint32_t* words,
             const TilePlace& place) const;
-  void store(const AttachmentOps& attachment_ops, Attachment& stored, const std::uint32_t* words,
+  void store(const AttachmentOps& ops, Attachment& stored, const std::uint32_t* words,
              const TilePlace& place) const;
   void fill_cleared(const TileStrip& strip) const;
   std::uint8_t* target_pixel(int x, int y) const;
@@ -81,13 +82,13 @@ class TileStage {
   FrameBufferState& target_;
   const ImageTarget* image_;
   const CaptureStage& capture_;
-  PixelRect target_region_;  ///< of the image
+  PixelRect target_region_;  ///< pixels of the image that are written
   ScanOutCache& scan_out_cache_;
   RenderTile* render_;
   StorePlanesFn* store_planes_;
   LoadPlanesFn* load_planes_;
   int buffered_tiles_;
-  bool copies_cleared_row_ = false;  ///< a tile without triangles is part of scan_out_cache_.cleared_row
+  bool copies_cleared_row_ = false;  ///< tiles without triangles are copied from scan_out_cache_.cleared_row
 };
 
 }  // namespace tessera::detail

@@ -1,4 +1,4 @@
-// Which symbols leave the library. Everything else is hidden.
+// Visibility of symbols: TESSERA_API is exported, everything else is hidden.
 #pragma once
 
 #if defined(TESSERA_STATIC)

@@ -1,4 +1,4 @@
-// Kinds of primitives, and how many of them a list of vertices or indices makes.
+// Primitive types, and the number of primitives in a list of vertices or indices.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,13 @@
 
 namespace tessera {
 
-/// What the vertices of a mesh make, in their order [GL 2.1, 2.6.1]. Lines cover pixels by the diamond-exit
-/// rule; a loop goes back to its first vertex. Quads are split from their first to their third vertex, those
-/// of a strip from the first to the last of its four, polygons, which are convex, from their first vertex to
-/// all others. Which side of a quad or polygon is seen is a matter of the whole of it; so are its generated
-/// normals.
+/// Assembly of vertices into primitives, in order [GL 2.1, 2.6.1].
+/// - Lines cover pixels by the diamond-exit rule; a loop returns to its first vertex.
+/// - Quads are split along the diagonal from their first to their third vertex, quads of a strip from the
+/// first to
+///   the last of their four vertices. Polygons must be convex and are split as fans around their first
+///   vertex.
+/// - Facing and generated normals belong to the whole quad or polygon.
 enum class Primitive : std::uint8_t {
   points,
   lines,
@@ -25,10 +27,10 @@ enum class Primitive : std::uint8_t {
   polygon
 };
 
-/// The vertex of a primitive whose colour a flat-shaded primitive has.
+/// The vertex that gives a flat-shaded primitive its colour.
 enum class ProvokingVertex : std::uint8_t { last, first };
 
-/// The name of a primitive's meshes, for messages: "a triangle strip".
+/// Name of a mesh of these primitives, for messages: "a triangle strip".
 constexpr std::string_view name_of_mesh(Primitive primitive) {
   switch (primitive) {
     case Primitive::points: return "points";
@@ -45,7 +47,7 @@ constexpr std::string_view name_of_mesh(Primitive primitive) {
   return "";
 }
 
-/// Whether so many corners (indices, or vertices where there are none) make whole primitives; none at all do.
+/// Whether this number of corners (indices, or vertices without them) makes whole primitives; 0 does.
 constexpr bool makes_whole_primitives(Primitive primitive, std::size_t corners) {
   switch (primitive) {
     case Primitive::points: return true;
@@ -61,7 +63,7 @@ constexpr bool makes_whole_primitives(Primitive primitive, std::size_t corners) 
   }
   return false;
 }
-/// "a multiple of 3", "3 or more", ...: what makes_whole_primitives() asks for.
+/// The condition of makes_whole_primitives() in words: "a multiple of 3", "3 or more", ...
 constexpr std::string_view corners_needed(Primitive primitive) {
   switch (primitive) {
     case Primitive::lines: return "a multiple of 2";
@@ -74,7 +76,7 @@ constexpr std::string_view corners_needed(Primitive primitive) {
   }
 }
 
-/// Points, lines or triangles that so many corners make. @pre makes_whole_primitives
+/// Number of points, lines or triangles made from the corners. @pre makes_whole_primitives
 constexpr std::size_t element_count(Primitive primitive, std::size_t corners) {
   switch (primitive) {
     case Primitive::points:

@@ -1,4 +1,4 @@
-// The version: the one place where it stands.
+// The version of the library, defined here only.
 #pragma once
 
 #define TESSERA_VERSION_MAJOR 0

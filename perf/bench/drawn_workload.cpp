@@ -11,7 +11,7 @@ std::size_t pixels_of(const FrameBufferFormat& format) {
 }
 
 RendererOptions options_for(const Drawing& drawing, RendererOptions options) {
-  if (drawing.immediate_shading) options.defer_shading = false;
+  if (drawing.immediate_shading) options.debug.defer_shading = false;
   return options;
 }
 

@@ -63,12 +63,12 @@ void read_options(FuzzInput& from, RendererOptions (&options)[2]) {
   for (int i = 0; i < 2; ++i) {
     options[i].threads = 1;
     options[i].tile_size = kTileSizes[bits >> 2 * i & 3];
-    options[i].defer_shading = (bits >> (4 + i) & 1) == 0;
-    options[i].count_fragments = (bits >> (6 + i) & 1) != 0;
+    options[i].debug.defer_shading = (bits >> (4 + i) & 1) == 0;
+    options[i].debug.count_fragments = (bits >> (6 + i) & 1) != 0;
   }
   const int work = from.byte();
   options[1].threads = 1 + (work & 0x3f) % 3;
-  options[1].task_order = work & 0x3f;
+  options[1].debug.task_order = work & 0x3f;
   if ((work & 0x40) != 0) options[1].bin_memory = kMinBinMemory;
   options[0].instruction_set = InstructionSet::scalar;
   options[1].instruction_set =

@@ -79,7 +79,7 @@ std::vector<Painter> painters() {
     for (const int tile_size : {32, 64, 128})
       for (const bool defers : {false, true}) {
         const RendererOptions options{
-            .threads = 1, .tile_size = tile_size, .instruction_set = set, .defer_shading = defers};
+            .threads = 1, .tile_size = tile_size, .instruction_set = set, .debug = {.defer_shading = defers}};
         painters.push_back({std::string(name(set)) + ", tiles of " + std::to_string(tile_size) +
                                 (defers ? "" : ", shaded at once"),
                             options, std::make_unique<Renderer>(options)});
@@ -151,7 +151,7 @@ class CoverageOfDraws : public testing::TestWithParam<Way> {
       for (std::size_t i = 0; i < kPixels; ++i) here.counts += stencil_[i] != (mesh.times(i) & 255) ? 1 : 0;
     }
     // What was drawn and is hidden by now shows only here.
-    if (way.has_color && !painter.options.defer_shading)
+    if (way.has_color && !painter.options.debug.defer_shading)
       here.times =
           std::abs(static_cast<long double>(stats.shaded_pixels) - static_cast<long double>(mesh.covered));
     if (here.any() && !wrong_.any())

@@ -164,7 +164,7 @@ TEST(InterpolationConstant, EveryWayOfShadingGivesOneColor) {
   for (const InstructionSet set : available_instruction_sets())
     for (const bool defers : {true, false})
       for (const int samples : {1, 4}) {
-        Renderer renderer({.threads = 1, .instruction_set = set, .defer_shading = defers});
+        Renderer renderer({.threads = 1, .instruction_set = set, .debug = {.defer_shading = defers}});
         FrameBuffer buffer({.width = kSide, .height = kSide, .samples = samples});
         std::vector<std::uint32_t> words(kSide * kSide), covered(kSide * kSide);
         for (int n = 0; n < (long_tests() ? 500 : 15); ++n) {

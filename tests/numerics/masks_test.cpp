@@ -46,7 +46,7 @@ std::vector<Kind> kinds() {
   const auto mesh = [](const MeshData& data, Primitive primitive,
                        const std::function<void(DrawState&)>& change) {
     return [&data, primitive, change](Frame& frame, const FragmentState& fragments) {
-      DrawState state = draw_state_of(fragments);
+      DrawState state = draw_state(fragments);
       state.lighting = false;
       state.point_size = state.line_width = 5;
       change(state);
@@ -60,7 +60,7 @@ std::vector<Kind> kinds() {
       {"one colour", true,
        [](Frame& frame, const FragmentState& fragments) {
          static const MeshData plain = whole_window(0.2f);
-         DrawState state = draw_state_of(fragments);
+         DrawState state = draw_state(fragments);
          state.lighting = false;
          state.material.diffuse = {0.37f, 0.81f, 0.55f, 0.63f};
          frame.draw(plain.view(), state);

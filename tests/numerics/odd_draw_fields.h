@@ -164,8 +164,8 @@ inline void add_buffer_and_renderer(Fields& f) {
   [[maybe_unused]] const auto know = [](const FrameBufferFormat& b, const RendererOptions& o) {
     [[maybe_unused]] const auto& [width, height, color_mode, color_bits, palette, depth, stencil_bits,
                                   alpha_bits, dither, accumulation_bits, samples] = b;
-    [[maybe_unused]] const auto& [threads, tile_size, instruction_set, defer_shading, bin_memory,
-                                  count_fragments, task_order, executor, progress, log, trace] = o;
+    [[maybe_unused]] const auto& [threads, tile_size, instruction_set, bin_memory, debug, executor, progress,
+                                  log, trace] = o;
   };
   constexpr const char *kBuffer = "FrameBuffer", *kRenderer = "Renderer";
   const auto refused = [](double) { return Verdict::refused; };
@@ -208,7 +208,8 @@ inline void add_buffer_and_renderer(Fields& f) {
       [](double v) { return v >= kMinBinMemory ? Verdict::fine : Verdict::refused; },
       {0, 1, kMinBinMemory - 1, kMinBinMemory, std::size_t{1} << 40,
        std::numeric_limits<std::size_t>::max()});
-  f.number("options.task_order", kRenderer, [](InterfaceCase& w) { return &w.options.task_order; }, anything,
+  f.number("options.debug.task_order", kRenderer,
+           [](InterfaceCase& w) { return &w.options.debug.task_order; }, anything,
            {0, 1, 48, std::numeric_limits<std::uint32_t>::max()});
 }
 

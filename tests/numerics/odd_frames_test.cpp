@@ -67,7 +67,7 @@ TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
       for (const int tile_size : {32, 128}) {
         InterfaceCase copy = world;
         copy.options.tile_size = tile_size;
-        copy.options.defer_shading = tile_size == 32;
+        copy.options.debug.defer_shading = tile_size == 32;
         const Outcome outcome = run(copy, set);
         if (!first) first = outcome;
         ASSERT_EQ(outcome.message, first->message);

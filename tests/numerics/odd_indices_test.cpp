@@ -51,7 +51,7 @@ TEST(OddIndices, AreRefusedWhateverTheDrawWouldChange) {
                              s.stencil = StencilState{.front = {.zpass = StencilOp::invert, .write_mask = 0}};
                        }}};
   const MeshData whole = rectangle(-1, -1, 1, 1);
-  Renderer renderer({.threads = 1, .count_fragments = true});
+  Renderer renderer({.threads = 1, .debug = {.count_fragments = true}});
   const auto begin = [&](Frame& frame) {
     frame.clear({.color = Color{0, 0, 1, 1}, .depth = 0.75, .stencil = 5});
     frame.draw(whole.view(), unlit({1, 0, 0, 1}));

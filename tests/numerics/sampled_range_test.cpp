@@ -68,7 +68,7 @@ void expect_range(const std::string& what, const Subject& subject) {
   for (const int samples : {1, 4, 8})
     for (const bool defer : {false, true}) {
       Random random(7);
-      Renderer renderer({.threads = 1, .defer_shading = defer});
+      Renderer renderer({.threads = 1, .debug = {.defer_shading = defer}});
       for (int n = 0; n < (long_tests() ? 2000 : 40); ++n) {
         FrameBuffer buffer({.width = kSide, .height = kSide, .samples = samples});
         Frame frame(buffer);

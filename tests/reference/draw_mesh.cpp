@@ -113,13 +113,15 @@ class MeshDrawing {
       triangles.emplace_back(clip_polygon({vertices[0], vertices[i - 1], vertices[i]}, volume_), window_);
       area += triangles.back().signed_area();
     }
-    const bool is_back = draw_.front_face == FrontFace::kCcw ? area < 0 : area > 0;
-    if (draw_.cull == (is_back ? Cull::kBack : Cull::kFront)) return;
+    // Without area a polygon is back-facing [GL 2.1, 3.5.1], but lit as a front.
+    const bool is_front = draw_.front_face == FrontFace::kCcw ? area > 0 : area < 0;
+    const bool is_back = !is_front && area != 0;
+    if (draw_.cull == (is_front ? Cull::kFront : Cull::kBack)) return;
     const PrimitiveShader shader(corners, is_back, colors_);
     FragmentPipeline pipeline = this->pipeline(shader, is_back);
     const FragmentCallback take = [&](const Fragment& fragment) { pipeline.take(fragment); };
     const double offset = depth_offset(draw_.polygon_offset, triangles, buffers_.format().depth);
-    switch (draw_.polygon_mode[is_back ? 1 : 0]) {
+    switch (draw_.polygon_mode[is_front ? 0 : 1]) {
       case PolygonMode::kFill:
         for (const WindowPolygon& triangle : triangles) triangle.for_each_fragment(offset, take);
         break;

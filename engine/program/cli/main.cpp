@@ -214,7 +214,7 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
       ->option_text("scalar|avx2|avx512")
       ->check(one_of({"scalar", "avx2", "avx512"}));
   command->add_flag("--explain", request.explain,
-                    "say for each draw what the code that runs for it contains, and why");
+                    "list for each draw the effects that run or are skipped, and why");
   command
       ->add_flag("--stats{text}", request.stats_name,
                  "say what the frame took: for people on stderr, or with =json as JSON on stdout")

@@ -161,7 +161,7 @@ void print_log(LogLevel min_level, LogLevel level, std::string_view message) {
 
 // In a rendering of its own, which nobody times.
 std::uint64_t count_fragments(const Scene& scene, RendererOptions options) {
-  options.count_fragments = true;
+  options.debug.count_fragments = true;
   options.progress = {};
   options.log = {};
   Renderer renderer(options);

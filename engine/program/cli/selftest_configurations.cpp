@@ -8,8 +8,10 @@ Configurations all_configurations(int threads) {
     for (const int n : threads == 1 ? std::vector<int>{1} : std::vector<int>{1, threads})
       for (const int tile_size : {32, 64, 128})
         for (const bool defer : {true, false})
-          configurations.push_back(
-              {.threads = n, .tile_size = tile_size, .instruction_set = set, .defer_shading = defer});
+          configurations.push_back({.threads = n,
+                                    .tile_size = tile_size,
+                                    .instruction_set = set,
+                                    .debug = {.defer_shading = defer}});
   return configurations;
 }
 
@@ -25,7 +27,8 @@ Configurations few_configurations(int threads) {
 std::string to_text(const RendererOptions& configuration) {
   return std::string(name(configuration.instruction_set)) + ", " + std::to_string(configuration.threads) +
          (configuration.threads == 1 ? " thread" : " threads") + ", tiles of " +
-         std::to_string(configuration.tile_size) + (configuration.defer_shading ? "" : ", shaded at once");
+         std::to_string(configuration.tile_size) +
+         (configuration.debug.defer_shading ? "" : ", shaded at once");
 }
 
 }  // namespace tessera::program::cli

@@ -29,14 +29,7 @@ double read_raster_depth(const Object& object) {
 FragmentState read_state(const Object& object, const Scene& scene) {
   DrawState s;
   read_fragment_state(object, scene, s);
-  return {.depth = s.depth,
-          .alpha_test = s.alpha_test,
-          .stencil = s.stencil,
-          .blend = s.blend,
-          .logic_op = s.logic_op,
-          .color_mask = s.color_mask,
-          .plane_mask = s.plane_mask,
-          .scissor = s.scissor};
+  return fragment_state(s);
 }
 
 std::shared_ptr<const Picture> read_image_file(const Value& file, const std::string& base_folder,

@@ -109,7 +109,7 @@ struct RandomOperations {
                          .y = y,
                          .depth = depth,
                          .color = color(random)},
-                        fragment_state_of(s));
+                        fragment_state(s));
     else
       frame.draw_image({.pixels = texels.data(),
                         .width = width,
@@ -120,7 +120,7 @@ struct RandomOperations {
                         .zoom_x = zoom_x,
                         .zoom_y = zoom_y,
                         .depth = depth},
-                       fragment_state_of(s));
+                       fragment_state(s));
   }
 
   // Filled or outlined polygons; every second mesh is textured, some are drawn as planar shadows.

@@ -119,7 +119,7 @@ TEST(Bitmap, PassesThroughEveryOperationLikeTriangles) {
       bitmap.x = place.x, bitmap.y = place.y;
       bits.draw_bitmap(bitmap, state);
       const MeshData whole = whole_window(static_cast<float>(2 * depth - 1));
-      DrawState same = draw_state_of(state);
+      DrawState same = draw_state(state);
       same.lighting = false;
       same.material.diffuse = color;
       same.scissor = state.scissor ? intersection(*state.scissor, place) : place;
@@ -179,7 +179,7 @@ TEST(Bitmap, KeepsItsPlaceAmongClearsDrawsAndAccumulation) {
       frame.accumulate({.op = AccumOp::return_color, .value = 1, .scissor = Rect{30, 0, 4, 8}});
       frame.clear({.color = Color{1, 1, 0, 1}, .scissor = Rect{10, 0, 4, 8}});
       frame.draw_bitmap(square(40, 4, {0, 1, 1, 1}));
-      Renderer({.threads = 1, .defer_shading = defer}).finish(frame);
+      Renderer({.threads = 1, .debug = {.defer_shading = defer}}).finish(frame);
       const std::vector<std::uint32_t> words = packed_colors(buffer);
       const auto at = [&](int x, int y) { return words[static_cast<std::size_t>((39 - y) * 48 + x)]; };
       EXPECT_EQ(at(2, 2) & 0xffff, 0u) << "red light only";
@@ -211,15 +211,14 @@ TEST(Bitmap, CountsAsADrawInCapturesExplanationsAndStatistics) {
                         state);  // outside the window
       frame.draw_bitmap({.bits = stripes.data(), .width = 8, .height = 1, .x = 0, .y = 3}, state);
       EXPECT_EQ(frame.draw_count(), 4u);
-      EXPECT_THAT(frame.explain(1), AllOf(HasSubstr("a bitmap of 8 x 64: one colour"),
-                                          HasSubstr("depth test"), testing::Not(HasSubstr("left out"))));
-      EXPECT_THAT(frame.explain(2), HasSubstr("can change no pixel: left out"));
-      std::vector<std::uint32_t> draw_ids(pixel_count(buffer));
-      std::vector<std::uint32_t> primitive_ids(draw_ids.size());
+      EXPECT_THAT(frame.explain(1), AllOf(HasSubstr("bitmap: 8 x 64, one colour"), HasSubstr("depth test"),
+                                          testing::Not(HasSubstr("skipped"))));
+      EXPECT_THAT(frame.explain(2), HasSubstr("draw: skipped, it can change no pixel"));
+      std::vector<std::uint32_t> draw_ids(pixel_count(buffer)), primitive_ids(draw_ids.size());
       std::vector<float> normals(3 * draw_ids.size());
       frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals});
       const FrameStats stats =
-          Renderer({.threads = 1, .tile_size = 32, .count_fragments = true}).finish(frame);
+          Renderer({.threads = 1, .tile_size = 32, .debug = {.count_fragments = true}}).finish(frame);
       EXPECT_EQ(stats.fragments, 70u * 50 + 4 * 50 + 4);
       EXPECT_EQ(stats.triangles_in, 2u);
       std::size_t drawn = 0;

@@ -117,7 +117,7 @@ TEST(Capture, IsTheSameForIndicesAndForImmediateShading) {
   std::optional<Pixels> first;
   for (const FrameBufferFormat& format : {kFormat, indices})
     for (const bool defer : {true, false}) {
-      Renderer renderer({.threads = 2, .defer_shading = defer});
+      Renderer renderer({.threads = 2, .debug = {.defer_shading = defer}});
       FrameBuffer buffer(format);
       Frame frame(buffer);
       scene.record(frame);
@@ -213,7 +213,7 @@ TEST(Fragments, AreCountedBeforeAnyTestAndOnlyOnRequest) {
   const MeshData far = whole_window(0.5f);
   const MeshData half = rectangle(-1, -1, 1, 0, 0);
   for (const bool count : {false, true}) {
-    Renderer renderer({.threads = 1, .count_fragments = count});
+    Renderer renderer({.threads = 1, .debug = {.count_fragments = count}});
     Frame frame(buffer);
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     frame.draw(near.view(), unlit({1, 1, 1, 1}));

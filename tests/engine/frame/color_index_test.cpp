@@ -213,7 +213,7 @@ TEST(ColorIndex, BitsDoNotDependOnLayoutOrRendererOptions) {
                           {.threads = threads,
                            .tile_size = tile_size,
                            .instruction_set = set,
-                           .defer_shading = defer}),
+                           .debug = {.defer_shading = defer}}),
                     expected)
               << name(set) << ", tiles of " << tile_size << ", " << threads << " threads, deferred " << defer;
 }
@@ -251,21 +251,23 @@ TEST(ColorIndex, ExplainNamesUnusedInputs) {
   FrameBufferFormat dithered = kIndexFormat;
   dithered.dither = Dither::bayer2;
   EXPECT_THAT(explain(dithered, mesh, index_state()),
-              AllOf(HasSubstr("indices of the vertices"),
-                    HasSubstr("colours are not used: it has color_indices"), HasSubstr("not dithered")));
+              AllOf(HasSubstr("colour indices: on"),
+                    HasSubstr("vertex colours: ignored, the mesh has colour indices"),
+                    HasSubstr("dither: skipped, colour indices are stored")));
   const FrameBufferFormat rgb{.width = 4, .height = 4};
   EXPECT_THAT(explain(rgb, mesh, index_state()),
-              HasSubstr("color_indices are not used: the buffer holds RGB"));
+              HasSubstr("colour indices: ignored, the frame buffer holds RGB"));
   EXPECT_THAT(explain(kIndexFormat, mesh, {}),
-              AllOf(HasSubstr("color_indices are not used: it is lit"), Not(HasSubstr("index lighting"))));
+              AllOf(HasSubstr("colour indices: ignored, the draw is lit"), Not(HasSubstr("index lighting"))));
   DrawState state;
   state.color_material = ColorMaterial::diffuse;
   state.material = index_material(0, 1, 2, 3);
   EXPECT_THAT(explain(kIndexFormat, mesh, state),
-              AllOf(HasSubstr("index lighting"), HasSubstr("Blinn highlight"),
-                    HasSubstr("colours are not used: the material has an index_ramp")));
-  EXPECT_THAT(explain(rgb, mesh, state), AllOf(HasSubstr("index_ramp is not used: the buffer holds RGB"),
-                                               Not(HasSubstr("index lighting"))));
+              AllOf(HasSubstr("index lighting: on"), HasSubstr("highlight: Blinn"),
+                    HasSubstr("vertex colours: ignored, the material has an index_ramp")));
+  EXPECT_THAT(explain(rgb, mesh, state),
+              AllOf(HasSubstr("index lighting: ignored, the frame buffer holds RGB"),
+                    Not(HasSubstr("index lighting: on"))));
 }
 
 }  // namespace

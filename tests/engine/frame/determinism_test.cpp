@@ -50,8 +50,8 @@ Scene scene_of(const std::string& name) {
 
 std::string text(const RendererOptions& o) {
   return std::to_string(o.threads) + " threads, tiles of " + std::to_string(o.tile_size) + ", " +
-         std::string(name(o.instruction_set)) + (o.defer_shading ? "" : ", shaded at once") +
-         (o.bin_memory == kMinBinMemory ? ", in parts" : "") + (o.task_order != 0 ? ", shuffled" : "");
+         std::string(name(o.instruction_set)) + (o.debug.defer_shading ? "" : ", shaded at once") +
+         (o.bin_memory == kMinBinMemory ? ", in parts" : "") + (o.debug.task_order != 0 ? ", shuffled" : "");
 }
 
 const std::vector<RendererOptions>& all_options() {
@@ -63,12 +63,13 @@ const std::vector<RendererOptions>& all_options() {
       for (const int tile_size : {32, 64, 128})
         for (const InstructionSet set : available_instruction_sets()) {
           const int place = threads + tile_size / 32 / 2 + static_cast<int>(set);
-          all.push_back({.threads = threads,
-                         .tile_size = tile_size,
-                         .instruction_set = set,
-                         .defer_shading = place % 2 == 0,
-                         .bin_memory = place / 2 % 2 == 0 ? RendererOptions{}.bin_memory : kMinBinMemory,
-                         .task_order = threads % 3 == 0 ? 0u : 17u * static_cast<unsigned>(place)});
+          all.push_back(
+              {.threads = threads,
+               .tile_size = tile_size,
+               .instruction_set = set,
+               .bin_memory = place / 2 % 2 == 0 ? RendererOptions{}.bin_memory : kMinBinMemory,
+               .debug = {.defer_shading = place % 2 == 0,
+                         .task_order = threads % 3 == 0 ? 0u : 17u * static_cast<unsigned>(place)}});
         }
     return all;
   }();

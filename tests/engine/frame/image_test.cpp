@@ -201,7 +201,7 @@ TEST(Image, SingleTexelPassesThroughEveryOperationLikeTriangles) {
       pixel.x = place.x, pixel.y = place.y, pixel.zoom_x = place.width, pixel.zoom_y = place.height;
       image.draw_image(pixel, state);
       const MeshData whole = whole_window(static_cast<float>(2 * depth - 1));
-      DrawState same = draw_state_of(state);
+      DrawState same = draw_state(state);
       same.lighting = false;
       const auto component = [&](int c) { return static_cast<float>(texel[c]) / 255.0f; };
       same.material.diffuse = {component(0), component(1), component(2), component(3)};
@@ -272,14 +272,12 @@ TEST(Image, CountsAsADrawInCapturesExplanationsAndStatistics) {
                      state);
     frame.draw_image({.pixels = grey.data(), .width = 4, .height = 4, .channels = 1, .zoom_x = 0}, state);
     EXPECT_THAT(frame.explain(1),
-                AllOf(HasSubstr("an image of 4 x 4, 1 channel: each pixel has the colour of its texel"),
-                      HasSubstr("depth test")));
-    EXPECT_THAT(frame.explain(2), HasSubstr("can change no pixel: left out"));
-    std::vector<std::uint32_t> draw_ids(pixel_count(buffer));
-    std::vector<std::uint32_t> primitive_ids(draw_ids.size());
+                AllOf(HasSubstr("image: 4 x 4, 1 channel, one colour per texel"), HasSubstr("depth test")));
+    EXPECT_THAT(frame.explain(2), HasSubstr("draw: skipped, it can change no pixel"));
+    std::vector<std::uint32_t> draw_ids(pixel_count(buffer)), primitive_ids(draw_ids.size());
     std::vector<float> normals(3 * draw_ids.size());
     frame.capture({.draw_ids = draw_ids, .primitive_ids = primitive_ids, .normals = normals});
-    const FrameStats stats = Renderer({.threads = 1, .count_fragments = true}).finish(frame);
+    const FrameStats stats = Renderer({.threads = 1, .debug = {.count_fragments = true}}).finish(frame);
     EXPECT_EQ(stats.fragments, 40u * 40 + 64);
     for (std::size_t y = 0; y < 40; ++y)
       for (std::size_t x = 0; x < 40; ++x) {

@@ -81,29 +81,6 @@ inline FragmentState random_fragment_state(Random& random, const FrameBufferForm
   return s;
 }
 
-inline FragmentState fragment_state_of(const DrawState& s) {
-  return {.depth = s.depth,
-          .alpha_test = s.alpha_test,
-          .stencil = s.stencil,
-          .blend = s.blend,
-          .logic_op = s.logic_op,
-          .color_mask = s.color_mask,
-          .plane_mask = s.plane_mask,
-          .scissor = s.scissor};
-}
-inline DrawState draw_state_of(const FragmentState& s) {
-  DrawState d;
-  d.depth = s.depth;
-  d.alpha_test = s.alpha_test;
-  d.stencil = s.stencil;
-  d.blend = s.blend;
-  d.logic_op = s.logic_op;
-  d.color_mask = s.color_mask;
-  d.plane_mask = s.plane_mask;
-  d.scissor = s.scissor;
-  return d;
-}
-
 /// Fills every buffer: colours and depths that vary over the window, stencil values in stripes. The meshes
 /// are static.
 inline void draw_background(Frame& frame, const FrameBufferFormat& format) {

@@ -131,6 +131,57 @@ TEST(PolygonMode, CullsFacesInEveryMode) {
   }
 }
 
+// Front-facing needs a positive area [GL 2.1, 3.5.1].
+TEST(PolygonMode, PolygonsWithoutAreaAreBackFacing) {
+  MeshData mesh;
+  mesh.positions = {-0.4f, -0.4f, 0, 0.4f, 0.4f, 0, -0.4f, -0.4f, 0};
+  const auto pixels = [&](const DrawState& state) {
+    FrameBuffer buffer({.width = 64, .height = 64});
+    Frame frame(buffer);
+    frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+    frame.draw(mesh.view(), state);
+    Renderer({.threads = 1}).finish(frame);
+    const std::vector<std::uint32_t> words = packed_colors(buffer);
+    return std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return (w & 0xffffff) != 0; });
+  };
+  for (const FrontFace front_face : {FrontFace::ccw, FrontFace::cw})
+    for (const PolygonMode mode : {PolygonMode::line, PolygonMode::point}) {
+      DrawState state{.lighting = false, .front_face = front_face, .front_mode = mode, .back_mode = mode};
+      const auto all = pixels(state);
+      EXPECT_GT(all, 0);
+      state.cull = Cull::front;
+      EXPECT_EQ(pixels(state), all) << "a back face";
+      state.cull = Cull::back;
+      EXPECT_EQ(pixels(state), 0) << "a back face";
+      state.cull = Cull::none;
+      state.front_mode = PolygonMode::fill;
+      EXPECT_EQ(pixels(state), all) << "drawn in the mode of back faces";
+    }
+}
+
+// Two-sided lighting takes the front material [GL 2.1, 2.14.1].
+TEST(PolygonMode, PolygonsWithoutAreaAreLitAsFronts) {
+  MeshData mesh;
+  mesh.positions = {-0.4f, -0.4f, 0, 0.4f, 0.4f, 0, -0.4f, -0.4f, 0};
+  FrameBuffer buffer({.width = 64, .height = 64});
+  Frame frame(buffer);
+  frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+  frame.set_lights(std::span<const Light>{});
+  frame.set_light_model({.ambient = {0, 0, 0, 1}, .two_sided = true});
+  frame.draw(mesh.view(), {.material = {.emission = {1, 0, 0, 1}},
+                           .back_material = Material{.emission = {0, 0, 1, 1}},
+                           .front_mode = PolygonMode::line,
+                           .back_mode = PolygonMode::line});
+  Renderer({.threads = 1}).finish(frame);
+  const std::vector<std::uint32_t> words = packed_colors(buffer);
+  const auto count = [&](std::uint32_t color) {
+    return std::count_if(words.begin(), words.end(),
+                         [&](std::uint32_t word) { return (word & 0xffffff) == color; });
+  };
+  EXPECT_EQ(count(0xff0000), 16) << "the front material";
+  EXPECT_EQ(count(0x0000ff), 0) << "the back material";
+}
+
 // Outlines over their own polygon: all visible if moved nearer; if moved away, none inside the polygon is
 // visible. A known bug of Mesa's software driver.
 TEST(PolygonMode, UsesThePolygonsOffset) {

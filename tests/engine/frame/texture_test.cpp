@@ -289,10 +289,10 @@ TEST(Texture, OneColorIsFoldedAndMatchesTexels) {
             state.texture = &folded;
             const FrameBufferFormat format{.width = 20, .height = 20, .samples = samples};
             const std::vector<std::uint32_t> a = drawn(mesh, state, format);
-            EXPECT_THAT(explained(mesh, state, format), HasSubstr("texture: one colour"));
+            EXPECT_THAT(explained(mesh, state, format), HasSubstr("one colour"));
             state.texture = &sampled;
             const std::vector<std::uint32_t> b = drawn(mesh, state, format);
-            EXPECT_THAT(explained(mesh, state, format), HasSubstr("texture 64x1, 4 channels"));
+            EXPECT_THAT(explained(mesh, state, format), HasSubstr("texture: 64 x 1, 4 channels"));
             for (std::size_t i = 0; i < a.size(); ++i)
               for (int shift = 0; shift < 24; shift += 8) {
                 const int apart =
@@ -317,7 +317,7 @@ TEST(Texture, TexturesWithoutEffectAreElided) {
     state.texture_env = env;
     return explained(mesh, state);
   };
-  constexpr const char* kNothing = "texture: one colour that changes nothing, left out";
+  constexpr const char* kNothing = "texture: skipped, its one colour changes nothing";
   EXPECT_THAT(explain(white, TextureEnv::modulate), HasSubstr(kNothing));
   EXPECT_THAT(explain(black, TextureEnv::add), HasSubstr(kNothing));
   EXPECT_THAT(explain(black, TextureEnv::blend), HasSubstr(kNothing));
@@ -340,12 +340,12 @@ TEST(Texture, TextureIsElidedWithoutColorOutput) {
   DrawState state;
   state.texture = &texture;
   state.color_mask = {false, false, false, false};
-  EXPECT_THAT(explained(textured_window(), state), HasSubstr("texture left out"));
+  EXPECT_THAT(explained(textured_window(), state), HasSubstr("texture: skipped"));
   state.alpha_test = AlphaTest{};
   EXPECT_THAT(explained(textured_window(), state),
-              AllOf(HasSubstr("texture 4x4"), Not(HasSubstr("left out: no colour"))));
+              AllOf(HasSubstr("texture: 4 x 4"), Not(HasSubstr("texture: skipped"))));
   state.texture = &without_alpha;
-  EXPECT_THAT(explained(textured_window(), state), HasSubstr("texture left out"));
+  EXPECT_THAT(explained(textured_window(), state), HasSubstr("texture: skipped"));
   state = {};
   state.texture = &texture;
   state.lighting = false;
@@ -353,7 +353,7 @@ TEST(Texture, TextureIsElidedWithoutColorOutput) {
   mesh.color_indices = {1, 2, 3, 4};
   EXPECT_THAT(
       explained(mesh, state, {.width = 16, .height = 16, .color_mode = ColorMode::index, .color_bits = 8}),
-      HasSubstr("texture left out"));
+      HasSubstr("texture: skipped"));
 }
 
 // s and t are 0 everywhere: the texel at the origin; with a linear filter, the mean of the four around that
@@ -486,7 +486,7 @@ TEST(Texture, BitsDoNotDependOnRendererOptions) {
       for (const int tile_size : {32, 64, 128})
         EXPECT_EQ(print({.threads = 2, .tile_size = tile_size, .instruction_set = set}), expected)
             << name(set) << ", tiles of " << tile_size << ", " << samples << " samples";
-    EXPECT_EQ(print({.defer_shading = false}), expected) << samples << " samples";
+    EXPECT_EQ(print({.debug = {.defer_shading = false}}), expected) << samples << " samples";
   }
 }
 
@@ -504,7 +504,7 @@ TEST(Texture, CapturesAndCountsFollowTheAlphaTest) {
   std::vector<std::uint32_t> draw_ids(8);
   std::vector<float> normals(24);
   frame.capture({.draw_ids = draw_ids, .normals = normals});
-  const FrameStats stats = Renderer({.threads = 1, .count_fragments = true}).finish(frame);
+  const FrameStats stats = Renderer({.threads = 1, .debug = {.count_fragments = true}}).finish(frame);
   EXPECT_EQ(stats.fragments, 8u);
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_EQ(draw_ids[i], i % 4 < 2 ? Capture::kNothing : 0u) << i;

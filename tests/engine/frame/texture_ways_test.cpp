@@ -46,7 +46,7 @@ Result drawn(const MeshData& mesh, DrawState state, InstructionSet set, bool wit
   frame.clear({.color = Color{0.2f, 0.4f, 0.6f, 1}, .depth = 0.8, .stencil = 0u});
   frame.draw(mesh.view(), state);
   const FrameStats stats =
-      Renderer({.threads = 1, .instruction_set = set, .defer_shading = false}).finish(frame);
+      Renderer({.threads = 1, .instruction_set = set, .debug = {.defer_shading = false}}).finish(frame);
   return {packed_colors(buffer), stats.shaded_pixels};
 }
 

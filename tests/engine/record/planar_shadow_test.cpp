@@ -147,7 +147,7 @@ TEST(PlanarShadow, EqualsTheFlattenedMeshInOneColor) {
       }
       const Color color{random.between(0, 1), random.between(0, 1), random.between(0, 1),
                         random.between(0, 1)};
-      DrawState state = draw_state_of(random_fragment_state(random, format, turn));
+      DrawState state = draw_state(random_fragment_state(random, format, turn));
       state.cull = static_cast<Cull>(turn % 3);
       if (format.depth != DepthFormat::none) state.polygon_offset = {-1, -4};
       DrawState shadow = state;

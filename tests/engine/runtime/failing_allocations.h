@@ -50,6 +50,7 @@ int fail_every_allocation(const Act& act, const AfterFailure& after_failure,
       allocations_left = -1;
       failed = true;
       message = error.what();
+      EXPECT_EQ(error.code(), ErrorCode::out_of_memory) << message;
     } catch (const std::bad_alloc&) {
       allocations_left = -1;
       failed = true;

@@ -86,7 +86,7 @@ TEST(OutOfMemory, FailedFrameCanBeFinishedAfterwards) {
       buffer.emplace(scene.format);
       // A new renderer without scratch memory, with a log callback.
       renderer.emplace(RendererOptions{
-          .threads = 1, .count_fragments = stencil, .log = [](LogLevel, std::string_view) {}});
+          .threads = 1, .debug = {.count_fragments = stencil}, .log = [](LogLevel, std::string_view) {}});
       frame.emplace(*buffer);
       scene.record(*frame);
       if (stencil) {

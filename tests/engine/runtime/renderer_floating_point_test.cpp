@@ -11,6 +11,7 @@
 
 #include "engine/program/scene/scene.h"
 #include "engine/program/threads/thread_limit.h"
+#include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/worker_pool.h"
 #include "tests/engine/frame/api_random_frame.h"
 

@@ -86,7 +86,7 @@ TEST(RendererReuse, ReportTheirOptions) {
   EXPECT_EQ(Renderer({.instruction_set = InstructionSet::scalar}).options().instruction_set,
             InstructionSet::scalar);
   EXPECT_EQ(Renderer({.tile_size = 32}).options().tile_size, 32);
-  EXPECT_FALSE(Renderer({.defer_shading = false}).options().defer_shading);
+  EXPECT_FALSE(Renderer({.debug = {.defer_shading = false}}).options().debug.defer_shading);
 }
 
 TEST(MovedObjects, FrameStaysValidIfItsFrameBufferIsMoved) {

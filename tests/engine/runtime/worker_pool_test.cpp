@@ -1,6 +1,7 @@
 // Tasks run once each, on the requested number of workers, in the default floating-point mode.
 #include "engine/runtime/worker_pool.h"
 #include "engine/program/threads/thread_limit.h"
+#include "engine/runtime/floating_point_mode.h"
 
 #include <gtest/gtest.h>
 

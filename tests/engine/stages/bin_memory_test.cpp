@@ -51,7 +51,7 @@ struct Outcome {
 };
 template <class Scene>
 Outcome render(const Scene& scene, RendererOptions options) {
-  options.count_fragments = true;
+  options.debug.count_fragments = true;
   FrameBuffer buffer(scene.format);
   Frame frame(buffer);
   scene.record(frame);
@@ -103,7 +103,8 @@ TEST(BinMemory, SingleTileProcessesOneBatchAtATime) {
     ASSERT_EQ(whole.stats.tiles, 1u);
     for (const bool defer : {true, false}) {
       SCOPED_TRACE(std::to_string(samples) + (defer ? " samples" : " samples, shaded at once"));
-      expect_same(render(scene, in_parts({.threads = 1, .tile_size = 64, .defer_shading = defer})), whole);
+      expect_same(render(scene, in_parts({.threads = 1, .tile_size = 64, .debug = {.defer_shading = defer}})),
+                  whole);
     }
   }
 }

@@ -1,0 +1,184 @@
+#include "engine/plan/explain_text.h"
+
+#include <array>
+#include <iterator>
+
+namespace tessera {
+namespace {
+
+struct EffectWords {
+  Effect effect;
+  std::string_view code;   ///< stable, for programs
+  std::string_view title;  ///< for people; lights are preceded by their number
+};
+constexpr EffectWords kEffects[] = {
+    {Effect::draw, "draw", "draw"},
+    {Effect::planar_shadow, "planar-shadow", "planar shadow"},
+    {Effect::depth_test, "depth-test", "depth test"},
+    {Effect::depth_write, "depth-write", "depth write"},
+    {Effect::plane_masks, "plane-masks", "plane masks"},
+    {Effect::alpha_test, "alpha-test", "alpha test"},
+    {Effect::stencil_test, "stencil-test", "stencil test"},
+    {Effect::blending, "blending", "blending"},
+    {Effect::dither, "dither", "dither"},
+    {Effect::logic_op, "logic-op", "logic operation"},
+    {Effect::alpha_planes, "alpha-planes", "alpha planes"},
+    {Effect::polygon_offset, "polygon-offset", "polygon offset"},
+    {Effect::polygon_mode, "polygon-mode", "polygon mode"},
+    {Effect::multisampling, "multisampling", "multisampling"},
+    {Effect::bitmap, "bitmap", "bitmap"},
+    {Effect::image, "image", "image"},
+    {Effect::texture, "texture", "texture"},
+    {Effect::texture_coordinates, "texture-coordinates", "texture coordinates"},
+    {Effect::texture_lod, "texture-lod", "texture level of detail"},
+    {Effect::lighting, "lighting", "lighting"},
+    {Effect::two_sided_lighting, "two-sided-lighting", "two-sided lighting"},
+    {Effect::index_lighting, "index-lighting", "index lighting"},
+    {Effect::vertex_colors, "vertex-colors", "vertex colours"},
+    {Effect::color_indices, "color-indices", "colour indices"},
+    {Effect::generated_normals, "generated-normals", "generated normals"},
+    {Effect::shading, "shading", "shading"},
+    {Effect::light, "light", ""},
+    {Effect::light_attenuation, "light-attenuation", " attenuation"},
+    {Effect::light_spot, "light-spot", " spot"},
+    {Effect::light_highlight, "light-highlight", " highlight"},
+    {Effect::light_ambient, "light-ambient", " ambient part"},
+    {Effect::light_tracked_colors, "light-tracked-colors", " vertex colours"},
+};
+
+struct ReasonWords {
+  EffectReason reason;
+  std::string_view code;    ///< stable, for programs
+  std::string_view phrase;  ///< for people
+};
+constexpr ReasonWords kReasons[] = {
+    {EffectReason::requested, "requested", "on"},
+    {EffectReason::disabled, "disabled", "off"},
+    {EffectReason::no_depth_buffer, "no-depth-buffer", "off, the frame buffer has no depth buffer"},
+    {EffectReason::passes_and_writes_nothing, "passes-and-writes-nothing",
+     "skipped, it always passes and writes nothing"},
+    {EffectReason::always_passes, "always-passes", "skipped, it always passes"},
+    {EffectReason::replaces_destination, "replaces-destination",
+     "skipped, it replaces the stored colour with the new one"},
+    {EffectReason::stores_indices, "stores-indices", "skipped, colour indices are stored"},
+    {EffectReason::rgb_buffer, "rgb-buffer", "ignored, the frame buffer holds RGB"},
+    {EffectReason::no_pixel_can_change, "no-pixel-can-change", "skipped, it can change no pixel"},
+    {EffectReason::no_color_stored, "no-color-stored", "skipped, no colour plane can change"},
+    {EffectReason::color_and_alpha_unused, "color-and-alpha-unused",
+     "skipped, its colour and alpha are not used"},
+    {EffectReason::no_effect, "no-effect", "skipped, its one colour changes nothing"},
+    {EffectReason::not_in_mesh, "not-in-mesh", "the mesh has none"},
+    {EffectReason::no_faces, "no-faces", "none, points and lines have no faces; normals are 0 0 0"},
+    {EffectReason::draw_is_lit, "draw-is-lit", "ignored, the draw is lit"},
+    {EffectReason::draw_has_color_indices, "draw-has-color-indices", "ignored, the mesh has colour indices"},
+    {EffectReason::color_material_none, "color-material-none",
+     "ignored, the draw is lit and color_material is none"},
+    {EffectReason::material_has_index_ramp, "material-has-index-ramp",
+     "ignored, the material has an index_ramp"},
+    {EffectReason::independent_of_surface, "independent-of-surface",
+     "constant, no light depends on the surface"},
+    {EffectReason::folded, "folded", "one colour, folded into the colours of vertices, faces or the draw"},
+    {EffectReason::one_color_per_pixel, "one-color-per-pixel", "one colour, applied at each pixel"},
+    {EffectReason::per_pixel, "per-pixel", "once per visible pixel"},
+    {EffectReason::per_fragment, "per-fragment",
+     "for every fragment, because the result depends on the order"},
+    {EffectReason::per_vertex, "per-vertex", "flat, at the vertices"},
+    {EffectReason::per_face, "per-face", "flat, once per triangle with its face normal"},
+    {EffectReason::per_provoking_vertex, "per-provoking-vertex",
+     "flat, once per triangle at the provoking vertex of its polygon"},
+    {EffectReason::per_point, "per-point", "one colour per point"},
+    {EffectReason::per_draw, "per-draw", "one colour for the draw"},
+    {EffectReason::per_texel, "per-texel", "one colour per texel"},
+    {EffectReason::interpolated, "interpolated", "colours interpolated as triangles are drawn"},
+    {EffectReason::interpolated_per_pixel, "interpolated-per-pixel",
+     "colours interpolated once per visible pixel"},
+    {EffectReason::face_normals, "face-normals", "face normals"},
+    {EffectReason::mean_normals, "mean-normals", "area-weighted means of the face normals at each position"},
+    {EffectReason::black, "black", "skipped, it adds black"},
+    {EffectReason::constant_ambient, "constant-ambient", "only a constant ambient part, added in advance"},
+    {EffectReason::directional, "directional", "directional"},
+    {EffectReason::positional, "positional", "positional"},
+    {EffectReason::unit_attenuation, "unit-attenuation", "skipped, the factors are 1 0 0"},
+    {EffectReason::cutoff_180, "cutoff-180", "off, the cutoff is 180 degrees"},
+    {EffectReason::black_specular, "black-specular", "skipped, the specular product is black"},
+    {EffectReason::blinn_infinite_viewer, "blinn-infinite-viewer", "Blinn, infinite viewer"},
+    {EffectReason::blinn_local_viewer, "blinn-local-viewer", "Blinn, local viewer"},
+    {EffectReason::phong_infinite_viewer, "phong-infinite-viewer", "Phong, infinite viewer"},
+    {EffectReason::phong_local_viewer, "phong-local-viewer", "Phong, local viewer"},
+};
+
+template <class Words, std::size_t size, class Key>
+constexpr bool is_indexed_by(const Words (&words)[size], Key Words::*key) {
+  for (std::size_t i = 0; i < size; ++i)
+    if (static_cast<std::size_t>(words[i].*key) != i) return false;
+  return true;
+}
+static_assert(is_indexed_by(kEffects, &EffectWords::effect));
+static_assert(is_indexed_by(kReasons, &ReasonWords::reason));
+static_assert(std::size(kEffects) == static_cast<std::size_t>(Effect::light_tracked_colors) + 1);
+static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::phong_local_viewer) + 1);
+
+const EffectWords& words_of(Effect effect) { return kEffects[static_cast<std::size_t>(effect)]; }
+const ReasonWords& words_of(EffectReason reason) { return kReasons[static_cast<std::size_t>(reason)]; }
+
+std::string title(const EffectNote& note) {
+  std::string text;
+  if (note.back_faces) text += "back faces, ";
+  if (note.light >= 0) text += "light " + std::to_string(note.light);
+  return text.append(words_of(note.effect).title);
+}
+
+/// Sizes and numbers that precede the reason.
+std::string numbers(const EffectNote& note) {
+  std::string text;
+  if (note.samples > 0) text += std::to_string(note.samples) + " samples per pixel; ";
+  if (note.width > 0) text += std::to_string(note.width) + " x " + std::to_string(note.height) + ", ";
+  if (note.channels > 0)
+    text += std::to_string(note.channels) + (note.channels == 1 ? " channel, " : " channels, ");
+  return text;
+}
+
+/// Wording of active effects for which "on" would not tell enough; empty: the reason's phrase.
+std::string_view phrase_if_requested(Effect effect) {
+  switch (effect) {
+    case Effect::planar_shadow: return "on, unlit in one colour";
+    case Effect::plane_masks: return "some colour planes are masked";
+    case Effect::polygon_mode: return "edges or corners of polygons, drawn per fragment";
+    case Effect::multisampling: return "coverage, depth and stencil per sample, colour per pixel";
+    case Effect::texture_lod: return "from derivatives, per pixel";
+    case Effect::index_lighting: return "on; emission, ambient light and material colours are ignored";
+    case Effect::light_ambient: return "differs between points";
+    case Effect::light_tracked_colors: return "replace material colours";
+    default: return words_of(EffectReason::requested).phrase;
+  }
+}
+
+std::string_view phrase(const EffectNote& note) {
+  if (note.reason == EffectReason::requested) return phrase_if_requested(note.effect);
+  if (note.effect == Effect::texture_coordinates && note.reason == EffectReason::not_in_mesh)
+    return "the mesh has no texture coordinates; the texture's colour at 0 0 is used";
+  return words_of(note.reason).phrase;
+}
+
+}  // namespace
+
+std::string_view code(Effect effect) {
+  return static_cast<std::size_t>(effect) < std::size(kEffects) ? words_of(effect).code : std::string_view();
+}
+std::string_view code(EffectReason reason) {
+  return static_cast<std::size_t>(reason) < std::size(kReasons) ? words_of(reason).code : std::string_view();
+}
+
+std::string detail::explain_text(std::span<const EffectNote> notes) {
+  std::string text;
+  for (const EffectNote& note : notes)
+    text.append("  ")
+        .append(title(note))
+        .append(": ")
+        .append(numbers(note))
+        .append(phrase(note))
+        .append("\n");
+  return text;
+}
+
+}  // namespace tessera

@@ -1,0 +1,33 @@
+// Threads that run the work of frames.
+#pragma once
+
+#include <memory>
+
+#include "types.hpp"
+
+namespace tessera {
+
+/// Runs the work of frames on threads of the caller's choice. Without one, renderers use oneTBB.
+class TESSERA_API Executor {
+ public:
+  virtual ~Executor();
+
+  /// Number of workers that may run at the same time: at least 1, constant. Read when a renderer is created.
+  virtual int workers() const noexcept = 0;
+
+  /// Calls work(context, k) once for each k in 0 .. count-1, in any order, concurrently or not, on any
+  /// threads; returns after all calls have returned.
+  /// - count <= workers(). `work` throws nothing. Exceptions of run() leave finish(), or the draw that the
+  ///   renderer helps with.
+  /// - Frames are faster if the same thread runs the same k each time: its data is in that thread's caches.
+  /// - One renderer calls it once at a time, and never from inside `work`.
+  /// - Several renderers may call it concurrently if they are used by several threads, or from inside `work`
+  /// if
+  ///   a progress callback of one renderer uses another.
+  virtual void run(int count, void (*work)(void* context, int worker), void* context) = 0;
+};
+
+/// Runs everything on the calling thread.
+TESSERA_API std::shared_ptr<Executor> serial_executor();
+
+}  // namespace tessera

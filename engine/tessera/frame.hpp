@@ -1,0 +1,98 @@
+// Recording of frames.
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tessera/effect_note.hpp>
+
+#include "commands.hpp"
+#include "framebuffer.hpp"
+#include "mesh.hpp"
+#include "scene.hpp"
+#include "state.hpp"
+#include "types.hpp"
+
+namespace tessera {
+
+class Renderer;
+
+/// Stable names in kebab case, for programs: "depth-test", "no-depth-buffer". Empty for values that are no
+/// enumerators.
+TESSERA_API std::string_view code(Effect effect);
+TESSERA_API std::string_view code(EffectReason reason);
+
+/// Records the commands of a frame, in order. Nothing is rendered until Renderer::finish.
+/// - The frame buffer must outlive the frame. It may be moved, and must not be assigned to.
+/// - Arguments are checked when they are recorded. A call that throws records nothing.
+/// - A frame that was moved from may only be assigned to or destroyed.
+class TESSERA_API Frame {
+ public:
+  /// @throws Error  if the frame buffer was moved from, or out of memory
+  explicit Frame(FrameBuffer& target);
+  /// Validates the indices of large meshes (65,536 indices and more) with the workers of `helper`; the
+  /// calling thread alone validates about 5e9 per second.
+  /// - draw() then uses the helper as finish() does: one thread at a time. Within the helper's own progress
+  ///   callback the calling thread validates alone.
+  /// - The helper must outlive the frame. It may be moved, and must not be assigned to.
+  /// - Any renderer may finish the frame.
+  Frame(FrameBuffer& target, Renderer& helper);
+  ~Frame();
+  Frame(Frame&&) noexcept;
+  Frame& operator=(Frame&&) noexcept;
+
+  // State of the draws that follow. Initially: identity matrices, one default Light, a default LightModel.
+  // Throw Error for values out of range or not finite, or out of memory.
+
+  void set_camera(const Camera& camera);
+  void set_lights(std::span<const Light> lights);
+  void set_lights(std::initializer_list<Light> lights) {
+    set_lights(std::span<const Light>(lights.begin(), lights.size()));
+  }
+  void set_light_model(const LightModel& model);
+
+  /// @throws Error  for values out of range, and for buffers that the frame buffer lacks
+  void clear(const Clear& clear);
+  /// @throws Error  for values out of range, and without an accumulation buffer
+  void accumulate(const Accum& accum);
+  /// Cost: validates every index; the rest of the work is the renderer's.
+  /// @throws Error  for arrays that do not fit together, values or indices out of range, a texture that was
+  /// moved
+  ///                from, or a shadow that does not exist
+  void draw(const Mesh& mesh, const DrawState& state = {});
+  /// Camera and viewport do not apply; pixels outside the frame buffer are dropped.
+  /// @throws Error  for null pointers, and for sizes or values out of range
+  void draw_bitmap(const Bitmap& bitmap, const FragmentState& state = {});
+  void draw_image(const PixelImage& image, const FragmentState& state = {});
+
+  /// Buffers that the frame buffer holds after the frame (store ops). Other buffers that the frame touches
+  /// are discarded: reading or loading them is an error until they are cleared as a whole. Default: every
+  /// buffer, or none if the frame is finished into an ImageTarget.
+  void keep(std::initializer_list<Buffer> buffers);
+
+  /// Requests per-pixel data from the next finish().
+  /// @throws Error  for a span of another size
+  void capture(const Capture& capture);
+
+  /// The effects of a draw: which of them run, which are skipped, and why.
+  /// @param draw_index  from 0; bitmaps and images count as draws
+  /// @throws Error  if the frame has no such draw
+  std::vector<EffectNote> effects(std::size_t draw_index) const;
+  /// The text of effects(), one line per effect. Wording may change between versions; programs use effects().
+  std::string explain(std::size_t draw_index) const;
+  std::size_t draw_count() const noexcept;
+
+  /// Forgets all commands, captures and keep(). Camera, lights and light model stay.
+  void reset() noexcept;
+
+ private:
+  friend class Renderer;
+  std::unique_ptr<detail::FrameRecording> recording_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,107 @@
+// Notes about the effects of a draw: which of them run, which are skipped, and why.
+#pragma once
+
+#include <cstdint>
+
+namespace tessera {
+
+/// An effect that a draw may consist of. New enumerators are appended.
+enum class Effect : std::uint8_t {
+  draw,                 ///< the draw as a whole
+  planar_shadow,        ///< DrawState::shadow_on
+  depth_test,           ///< DepthState::test
+  depth_write,          ///< DepthState::write
+  plane_masks,          ///< DrawState::color_mask and plane_mask
+  alpha_test,           ///< DrawState::alpha_test
+  stencil_test,         ///< DrawState::stencil
+  blending,             ///< DrawState::blend
+  dither,               ///< FrameBufferFormat::dither
+  logic_op,             ///< DrawState::logic_op
+  alpha_planes,         ///< FrameBufferFormat::alpha_bits
+  polygon_offset,       ///< DrawState::polygon_offset
+  polygon_mode,         ///< DrawState::front_mode and back_mode
+  multisampling,        ///< FrameBufferFormat::samples
+  bitmap,               ///< Frame::draw_bitmap
+  image,                ///< Frame::draw_image
+  texture,              ///< DrawState::texture
+  texture_coordinates,  ///< Mesh::texcoords
+  texture_lod,          ///< level of detail of the texture
+  lighting,             ///< DrawState::lighting
+  two_sided_lighting,   ///< LightModel::two_sided
+  index_lighting,       ///< Material::index_ramp
+  vertex_colors,        ///< Mesh::colors
+  color_indices,        ///< Mesh::color_indices
+  generated_normals,    ///< normals of a mesh that has none
+  shading,              ///< where and how often colours are evaluated
+  light,                ///< one light on one material
+  light_attenuation,    ///< its attenuation over distance
+  light_spot,           ///< its cone
+  light_highlight,      ///< its specular highlight
+  light_ambient,        ///< its ambient part, where it differs between points
+  light_tracked_colors  ///< vertex colours in place of the material's diffuse or specular colour
+};
+
+/// Why an effect runs or is skipped, or which variant of it runs. New enumerators are appended.
+enum class EffectReason : std::uint8_t {
+  requested,                  ///< active: the state asks for it
+  disabled,                   ///< the state turns it off
+  no_depth_buffer,            ///< the frame buffer has no depth buffer
+  passes_and_writes_nothing,  ///< a test that always passes and writes nothing
+  always_passes,              ///< a test that always passes
+  replaces_destination,       ///< the blend equation yields the source colour
+  stores_indices,             ///< colour indices are stored
+  rgb_buffer,                 ///< the frame buffer holds RGB
+  no_pixel_can_change,        ///< tests, masks or rectangles leave no pixel to change
+  no_color_stored,            ///< no colour plane can change
+  color_and_alpha_unused,     ///< its result reaches neither a stored colour nor a test
+  no_effect,                  ///< it would leave every colour as it is
+  not_in_mesh,                ///< the mesh lacks the vertex attribute
+  no_faces,                   ///< points and lines have no faces to derive normals from
+  draw_is_lit,                ///< lit draws ignore it
+  draw_has_color_indices,     ///< colour indices take its place
+  color_material_none,        ///< DrawState::color_material is none
+  material_has_index_ramp,    ///< index lighting takes its place
+  independent_of_surface,     ///< no light depends on the surface: the colour is a constant
+  folded,                     ///< applied in advance to the colours of vertices, faces or the draw
+  one_color_per_pixel,        ///< one colour, applied at each pixel
+  per_pixel,                  ///< evaluated once per visible pixel
+  per_fragment,               ///< evaluated for every fragment, in order
+  per_vertex,                 ///< evaluated at the vertices
+  per_face,                   ///< evaluated once per triangle, with the face's normal
+  per_provoking_vertex,       ///< evaluated once per triangle, at the provoking vertex of its polygon
+  per_point,                  ///< one colour per point
+  per_draw,                   ///< one colour for the draw
+  per_texel,                  ///< one colour per texel of the image
+  interpolated,               ///< colours of vertices, interpolated as triangles are drawn
+  interpolated_per_pixel,     ///< colours of vertices, interpolated once per visible pixel
+  face_normals,               ///< one normal per face
+  mean_normals,               ///< area-weighted means over the faces at each position
+  black,                      ///< all its products with the material are black
+  constant_ambient,           ///< only a constant ambient part remains, added in advance
+  directional,                ///< direction is the same everywhere
+  positional,                 ///< direction differs between points
+  unit_attenuation,           ///< attenuation factors are 1, 0, 0
+  cutoff_180,                 ///< the spot cutoff is 180 degrees
+  black_specular,             ///< the specular product of light and material is black
+  blinn_infinite_viewer,      ///< (N.H)^shininess, viewer at infinity
+  blinn_local_viewer,         ///< (N.H)^shininess, viewer at the eye
+  phong_infinite_viewer,      ///< (R.E)^shininess, viewer at infinity
+  phong_local_viewer          ///< (R.E)^shininess, viewer at the eye
+};
+
+/// One effect of a draw. Frame::effects returns them, Frame::explain their text.
+struct EffectNote {
+  Effect effect = Effect::draw;
+  bool active = true;  ///< false: no code runs for it
+  EffectReason reason = EffectReason::requested;
+  bool back_faces = false;  ///< two-sided lighting: about the back faces' material
+  int light = -1;           ///< number of the light, from 0; -1: not about a light
+  int width = 0;            ///< bitmap, image and texture: texels per row
+  int height = 0;           ///< bitmap, image and texture: rows
+  int channels = 0;         ///< image and texture: 1 to 4
+  int samples = 0;          ///< multisampling: per pixel
+
+  bool operator==(const EffectNote&) const = default;
+};
+
+}  // namespace tessera
