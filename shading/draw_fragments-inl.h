@@ -8,8 +8,6 @@
 
 #include <bit>
 
-#include "raster/coverage-inl.h"
-#include "raster/triangle_setup-inl.h"
 #include "shading/deferred_shading_msaa-inl.h"
 #include "shading/draw_group-inl.h"
 #include "shading/fragment_depth-inl.h"
@@ -350,31 +348,20 @@ HWY_INLINE void draw_fragments_of(TileContext& context, std::uint32_t draw_numbe
 }
 
 inline void draw_fragments(TileContext& context, std::uint32_t draw_number) {
-  TriangleGroup& g = context.memory.group;
+  const TriangleGroup& g = context.memory.group;
   const TileDraw& draw = context.frame.draws[draw_number];
-  set_up_edges(g, context.tile_x, context.tile_y, context.rect);
-  if (g.mask == 0) return;
-  if (has_depth(context.frame, draw))
-    set_up_depth(g, context.frame.depth_format, context.tile_x, context.tile_y);
-  set_up_weights(g);
-  for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    Edges32 edges = tile_edges32(g, i);
-    Edges64 wide_edges;
-    if (g.needs_edges64[i] != 0 &&
-        !tile_edges64(g, i, context.tile_x, context.tile_y, context.tile_size, edges, wide_edges))
-      continue;
+  const std::uint32_t in_tile = set_up_group(context, has_depth(context.frame, draw), true);
+  for_each_visible_triangle(context, in_tile, [&](int i, const TileEdges& edges) TESSERA_LOOP_BODY {
     ShadedTriangle triangle;
-    fill_shaded_triangle(triangle, context, draw_number, i, is_back(context, draw, i));
-    if (g.needs_edges64[i] != 0) store_edges64(triangle, context.memory, wide_edges);
+    fill_shaded_triangle(triangle, context, draw_number, i, is_back(context, draw, i), edges);
     draw_fragments_of(context, draw_number, i, triangle, [&](FragmentTriangle& fragments) HWY_ATTR {
       FragmentBlocks blocks{fragments, {}};
       blocks.depth.set_up(context.frame, draw, g, i, context.memory.source[i], context.tile_x,
                           context.tile_y);
-      const BlockOffsets offsets(edges);
-      for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], blocks);
+      const BlockOffsets offsets(edges.edges);
+      for_each_block(edges.edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], blocks);
     });
-  }
+  });
 }
 
 HWY_INLINE void move_group(TriangleGroup& g, std::int32_t x, std::int32_t y) {
@@ -434,8 +421,7 @@ inline void draw_fragments_msaa(TileContext& context, std::uint32_t draw_number)
       set_up_depth(g, context.frame.depth_format, context.tile_x, context.tile_y);
     visible |= g.mask;
   }
-  for (std::uint32_t left = visible; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
+  for_each_triangle(visible, [&](int i) TESSERA_LOOP_BODY {
     ShadedTriangle triangle;
     fill_centered_triangle(triangle, context, draw_number, i, is_back(context, draw, i));
     draw_fragments_of(context, draw_number, i, triangle, [&](FragmentTriangle& fragments) HWY_ATTR {
@@ -458,7 +444,7 @@ inline void draw_fragments_msaa(TileContext& context, std::uint32_t draw_number)
       const BlockOffsets offsets(bounds.edges);
       for_each_block(bounds.edges, offsets, bounds.x0, bounds.y0, bounds.x1, bounds.y1, blocks);
     });
-  }
+  });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -10,14 +10,13 @@
 
 #include <bit>
 
-#include "raster/coverage-inl.h"
-#include "raster/triangle_setup-inl.h"
 #include "shading/box_pixels-inl.h"
 #include "shading/deferred_shading-inl.h"
 #include "shading/fragment_scalar.h"
 #include "shading/pixel_paths-inl.h"
 #include "shading/small_triangle_pixels-inl.h"
 #include "shading/triangle_pixels-inl.h"
+#include "shading/visible_triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
@@ -60,27 +59,6 @@ HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kDepthTest, kColorWrite>& pi
     pixels.id = static_cast<std::int32_t>(context.memory.visible_triangles.size());
   if constexpr (kColorWrite == ColorWrite::constant)
     pixels.packed_color = static_cast<std::int32_t>(packed_color_of(context, draw, i, back));
-}
-
-/// The triangle as shading sees it.
-inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileContext& context,
-                                              std::uint32_t draw, int i, bool back) {
-  const TriangleGroup& g = context.memory.group;
-  set_tile_edges32(t.edges, g, i);  // in place: a copy would have to wait for each of its parts
-  for (int k = 0; k < 3; ++k) {
-    t.scale[k] = g.needs_edges64[i] != 0 ? g.unit_scale[k][i] : g.scale[k][i];
-    t.shift[k] = g.shift[k][i];
-    t.attributes[k] = context.memory.attributes[k][i];
-  }
-  t.affine = g.affine[i] != 0;
-  t.back = back;
-  t.draw = draw;
-  t.edges64_index = -1;
-}
-
-HWY_INLINE void store_edges64(ShadedTriangle& triangle, TileWorkspace::Memory& memory, const Edges64& edges) {
-  triangle.edges64_index = static_cast<std::int32_t>(memory.edges64.size());
-  memory.edges64.push_back(edges);
 }
 
 /// The small triangles that were added, whose colours are interpolated.
@@ -126,14 +104,14 @@ HWY_NOINLINE void draw_small_triangles(TileContext& context, const TileDraw& dra
   pixels.triangles = 0;
 }
 
-/// Keeps triangle i of the group, some of whose pixels were visible, until these are shaded.
-/// @param wide_edges  of a wide triangle; else null
+/// Collects triangle i of the group, which has visible pixels, until these are shaded.
+/// @param edges64  of a wide triangle; null if narrow
 inline HWY_NOINLINE void defer_triangle(TileContext& context, std::uint32_t draw_number, int i, bool back,
-                                        const Edges64* wide_edges) {
+                                        const Edges64* edges64) {
   TileWorkspace::Memory& memory = context.memory;
   ShadedTriangle& triangle = memory.visible_triangles.emplace_back();
   fill_shaded_triangle(triangle, context, draw_number, i, back);
-  if (wide_edges != nullptr) store_edges64(triangle, memory, *wide_edges);
+  if (edges64 != nullptr) store_edges64(triangle, memory, *edges64);
   if (!context.frame.shade_immediately) return;
   const TriangleGroup& g = memory.group;
   shade_visible(context, g.x0[i], g.y0[i], g.x1[i], g.y1[i]);
@@ -141,88 +119,91 @@ inline HWY_NOINLINE void defer_triangle(TileContext& context, std::uint32_t draw
   memory.edges64.clear();
 }
 
+/// The group's triangles whose bounds are at most 4x4 pixels, and the pixels that each of them covers.
+struct SmallTriangles {
+  std::uint32_t triangles;                     // one bit each
+  std::uint32_t uncovered;                     // those of them without a pixel
+  alignas(64) std::uint32_t hits[kGroupSize];  // 4 rows of 4 bits from (x0, y0)
+
+  HWY_INLINE explicit SmallTriangles(const TriangleGroup& g) : triangles(small_triangles(g)), uncovered(0) {
+    if (triangles == 0) return;
+    for (int first = 0; first < kGroupSize; first += kLanes) {
+      cover_small(g, first, hits + first);
+      const Int covered = hn::Load(kInt, reinterpret_cast<const std::int32_t*>(hits) + first);
+      uncovered |= mask_bits(kInt, hn::Eq(covered, hn::Zero(kInt))) << first;
+    }
+    uncovered &= triangles;
+  }
+  HWY_INLINE bool contains(int i) const { return (triangles >> i & 1) != 0; }
+};
+
 template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
 void draw_group(TileContext& context, std::uint32_t draw_number) {
   TileWorkspace::Memory& memory = context.memory;
-  TriangleGroup& g = memory.group;
+  const TriangleGroup& g = memory.group;
   const TileDraw& draw = context.frame.draws[draw_number];
-  set_up_edges(g, context.tile_x, context.tile_y, context.rect);
-  if (g.mask == 0) return;
-  if constexpr (kHasDepth<Depth>) set_up_depth(g, context.frame.depth_format, context.tile_x, context.tile_y);
-  if constexpr (is_interpolated(kColorWrite) || kColorWrite == ColorWrite::deferred) set_up_weights(g);
+  constexpr bool kNeedsWeights = is_interpolated(kColorWrite) || kColorWrite == ColorWrite::deferred;
+  const std::uint32_t in_tile = set_up_group(context, kHasDepth<Depth>, kNeedsWeights);
+  if (in_tile == 0) return;
 
-  alignas(64) std::uint32_t hits[kGroupSize];
-  const std::uint32_t small_ones = small_triangles(g);
-  std::uint32_t without_pixel = 0;
-  if (small_ones != 0)
-    for (int first = 0; first < kGroupSize; first += kLanes) {
-      cover_small(g, first, hits + first);
-      without_pixel |=
-          mask_bits(kInt, hn::Eq(hn::Load(kInt, reinterpret_cast<const std::int32_t*>(hits) + first),
-                                 hn::Zero(kInt)))
-          << first;
-    }
+  const SmallTriangles small(g);
   [[maybe_unused]] BoxGroup boxes;
   if constexpr (kHasBoxes<kDepthTest>) {
-    const std::uint32_t by_blocks = g.mask & ~small_ones;
+    const std::uint32_t by_blocks = in_tile & ~small.triangles;
     if (by_blocks != 0 && !context.needs_scissor) boxes.set_up(context, g, by_blocks);
   }
   [[maybe_unused]] SmallTrianglePixels small_pixels;
-  for (std::uint32_t left = g.mask & ~(small_ones & without_pixel); left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    const bool wide = g.needs_edges64[i] != 0, small = (small_ones >> i & 1) != 0;
-    if constexpr (kColorWrite == ColorWrite::interpolated) {
-      if (small) {
-        small_pixels.add(g, i, hits[i]);
-        continue;
-      }
-      if (small_pixels.count != 0)
-        draw_small_triangles<Depth, kDepthTest>(context, draw, small_pixels);  // that come before
-    }
-    const bool back = is_back(context, draw, i);
-    if constexpr (kHasBoxes<kDepthTest>) {
-      if ((boxes.triangles >> i & 1) != 0) {
-        std::int32_t value = 0;
-        if constexpr (kColorWrite == ColorWrite::constant)
-          value = static_cast<std::int32_t>(packed_color_of(context, draw, i, back));
-        if constexpr (kColorWrite == ColorWrite::deferred)
-          value = static_cast<std::int32_t>(memory.visible_triangles.size());
-        const std::uint32_t visible = draw_in_boxes<Depth, kColorWrite>(context, draw, boxes, i, value, back);
-        if constexpr (kColorWrite != ColorWrite::deferred) context.counts.shaded_pixels += visible;
-        else if (visible != 0) defer_triangle(context, draw_number, i, back, nullptr);
-        continue;
-      }
-    }
-    Edges32 edges = tile_edges32(g, i);
-    Edges64 wide_edges;
-    if (wide && !tile_edges64(g, i, context.tile_x, context.tile_y, context.tile_size, edges, wide_edges))
-      continue;
 
-    ShadedTriangle triangle;
-    if constexpr (is_interpolated(kColorWrite)) {
-      fill_shaded_triangle(triangle, context, draw_number, i, back);
-      if (wide) store_edges64(triangle, memory, wide_edges);
+  const auto draw_without_edges = [&](int i) TESSERA_LOOP_BODY {
+    if constexpr (kColorWrite == ColorWrite::interpolated) {
+      if (small.contains(i)) {
+        small_pixels.add(g, i, small.hits[i]);
+        return true;
+      }
+      // Triangles are drawn in order: those that were added come first.
+      if (small_pixels.count != 0) draw_small_triangles<Depth, kDepthTest>(context, draw, small_pixels);
     }
-    TrianglePixels<Depth, kDepthTest, kColorWrite> pixels(context, draw, edges, triangle, back);
+    if constexpr (kHasBoxes<kDepthTest>) {
+      if ((boxes.triangles >> i & 1) == 0) return false;
+      const bool back = is_back(context, draw, i);
+      std::int32_t value = 0;
+      if constexpr (kColorWrite == ColorWrite::constant)
+        value = static_cast<std::int32_t>(packed_color_of(context, draw, i, back));
+      if constexpr (kColorWrite == ColorWrite::deferred)
+        value = static_cast<std::int32_t>(memory.visible_triangles.size());
+      const std::uint32_t visible = draw_in_boxes<Depth, kColorWrite>(context, draw, boxes, i, value, back);
+      if constexpr (kColorWrite != ColorWrite::deferred) context.counts.shaded_pixels += visible;
+      else if (visible != 0) defer_triangle(context, draw_number, i, back, nullptr);
+      return true;
+    }
+    return false;
+  };
+  const auto draw_by_edges = [&](int i, const TileEdges& edges) TESSERA_LOOP_BODY {
+    const bool back = is_back(context, draw, i);
+    ShadedTriangle triangle;
+    if constexpr (is_interpolated(kColorWrite))
+      fill_shaded_triangle(triangle, context, draw_number, i, back, edges);
+    TrianglePixels<Depth, kDepthTest, kColorWrite> pixels(context, draw, edges.edges, triangle, back);
     set_up_pixels(pixels, context, draw, i, back);
-    if (kColorWrite != ColorWrite::interpolated && small) {
-      for (std::uint32_t hit = hits[i]; hit != 0; hit &= hit - 1) {
+    if (kColorWrite != ColorWrite::interpolated && small.contains(i)) {
+      for (std::uint32_t hit = small.hits[i]; hit != 0; hit &= hit - 1) {
         const int p = std::countr_zero(hit);
         pixels.pixel(g.x0[i] + (p & 3), g.y0[i] + (p >> 2));
       }
     } else {
       if constexpr (kHasDepth<Depth>) pixels.depth.prepare_blocks();
       if constexpr (kColorWrite == ColorWrite::blended) pixels.color.prepare_lanes();
-      for_each_block(edges, pixels.offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
+      for_each_block(edges.edges, pixels.offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
     }
     if constexpr (kColorWrite == ColorWrite::deferred) {
       if (!hn::AllTrue(kInt, hn::Eq(pixels.visible, hn::Zero(kInt))))
-        defer_triangle(context, draw_number, i, back, wide ? &wide_edges : nullptr);
+        defer_triangle(context, draw_number, i, back, edges.is_wide ? &edges.edges64 : nullptr);
     }
     if constexpr (is_interpolated(kColorWrite)) memory.edges64.clear();
     if constexpr (is_interpolated(kColorWrite) || kColorWrite == ColorWrite::constant)
       context.counts.shaded_pixels += pixels.visible_pixels;
-  }
+  };
+  for_each_visible_triangle(context, in_tile & ~small.uncovered, draw_without_edges, draw_by_edges);
   if constexpr (kColorWrite == ColorWrite::interpolated) {
     if (small_pixels.count != 0) draw_small_triangles<Depth, kDepthTest>(context, draw, small_pixels);
   }

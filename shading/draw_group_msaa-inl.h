@@ -222,11 +222,10 @@ void draw_group_msaa(TileContext& context, std::uint32_t draw_number) {
   const std::size_t first_id = memory.visible_triangles.size();
   if constexpr (kColorWrite == ColorWrite::deferred) {
     set_up_weights(g);
-    for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
-      const int i = std::countr_zero(left);
+    for_each_triangle(g.mask, [&](int i) TESSERA_LOOP_BODY {
       fill_shaded_triangle(memory.visible_triangles.emplace_back(), context, draw_number, i,
                            is_back(context, context.frame.draws[draw_number], i));
-    }
+    });
   }
   const bool any_visible = draw_edges32_msaa<Depth, kDepthTest, kColorWrite>(
       context, draw_number, static_cast<std::uint32_t>(first_id));

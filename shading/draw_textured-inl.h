@@ -208,29 +208,18 @@ struct NearestRows {
 };
 
 inline void draw_textured(TileContext& context, std::uint32_t draw_number) {
-  TriangleGroup& g = context.memory.group;
+  const TriangleGroup& g = context.memory.group;
   const TileDraw& draw = context.frame.draws[draw_number];
-  set_up_edges(g, context.tile_x, context.tile_y, context.rect);
-  if (g.mask == 0) return;
-  if (has_depth(context.frame, draw))
-    set_up_depth(g, context.frame.depth_format, context.tile_x, context.tile_y);
-  set_up_weights(g);
-  for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    Edges32 edges = tile_edges32(g, i);
-    Edges64 wide_edges;
-    if (g.needs_edges64[i] != 0 &&
-        !tile_edges64(g, i, context.tile_x, context.tile_y, context.tile_size, edges, wide_edges))
-      continue;
+  const std::uint32_t in_tile = set_up_group(context, has_depth(context.frame, draw), true);
+  for_each_visible_triangle(context, in_tile, [&](int i, const TileEdges& edges) TESSERA_LOOP_BODY {
     ShadedTriangle triangle;
-    fill_shaded_triangle(triangle, context, draw_number, i, is_back(context, draw, i));
-    if (g.needs_edges64[i] != 0) store_edges64(triangle, context.memory, wide_edges);
+    fill_shaded_triangle(triangle, context, draw_number, i, is_back(context, draw, i), edges);
     with_filter(*draw.texture->levels, [&]<TexelFilter kFilter>() HWY_ATTR {
       TexturedBlocks<kFilter> blocks{.context = context, .draw = draw, .triangle = triangle};
       blocks.set_up(i);
-      const BlockOffsets offsets(edges);
+      const BlockOffsets offsets(edges.edges);
       const auto draw_by = [&](auto& drawn) HWY_ATTR {
-        for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], drawn);
+        for_each_block(edges.edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], drawn);
       };
       bool by_rows = false;
       if constexpr (kFilter == TexelFilter::nearest) {
@@ -243,7 +232,7 @@ inline void draw_textured(TileContext& context, std::uint32_t draw_number) {
       context.counts.shaded_pixels += blocks.shaded_pixels();
     });
     context.memory.edges64.clear();
-  }
+  });
 }
 
 }  // namespace HWY_NAMESPACE
