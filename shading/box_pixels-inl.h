@@ -16,7 +16,7 @@
 #include "raster/coverage-inl.h"
 #include "raster/depth-inl.h"
 #include "shading/interpolate-inl.h"
-#include "shading/pixel_paths-inl.h"
+#include "shading/no_depth-inl.h"
 #include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();

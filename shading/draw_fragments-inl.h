@@ -214,7 +214,7 @@ struct FragmentTriangle {
       bits = 0;
     }
     for (int s = 0; s < context.samples; ++s) bits |= passed[s] = test(context.sample[s], bx, by, blocks[s]);
-    if (bits == 0 || draw.write_mask == 0 || draw.source == ColorSource::none) return;
+    if (bits == 0 || draw.path.color_write == ColorWrite::none) return;
     visible = true;
     const int index = context.block_index(bx, by);
     if (draw.deferred) {
@@ -302,12 +302,6 @@ struct SampledBlocks {
 
 /// Of draws that have no operations and come here all the same.
 inline constexpr FragmentOps kNoOperations{};
-HWY_INLINE bool has_packed_color(const TileDraw& draw) {
-  if (draw.texture != nullptr) return false;
-  return draw.source == ColorSource::constant || draw.source == ColorSource::per_vertex_packed ||
-         draw.source == ColorSource::per_triangle_packed;
-}
-
 /// Runs blocks(fragments) for one triangle of the group, whose pixels' centres stand in `triangle`.
 template <class Blocks>
 HWY_INLINE void draw_fragments_of(TileContext& context, std::uint32_t draw_number, int i,
@@ -318,14 +312,13 @@ HWY_INLINE void draw_fragments_of(TileContext& context, std::uint32_t draw_numbe
                              .draw = draw,
                              .ops = draw.ops != nullptr ? *draw.ops : kNoOperations,
                              .triangle = triangle,
-                             .has_depth = has_depth(context.frame, draw),
+                             .has_depth = draw.path.uses_depth(),
                              .surface = {}};
   if (fragments.ops.stencil)
     fragments.stencil =
         stencil_test_constants(fragments.ops.faces[fragments.face()], fragments.ops.stencil_max);
   fragments.id = static_cast<std::int32_t>(memory.visible_triangles.size());
-  fragments.is_packed =
-      draw.id_output != TileDraw::IdOutput::none || (draw.ops == nullptr && has_packed_color(draw));
+  fragments.is_packed = draw.path.color_write == ColorWrite::constant;
   if (fragments.is_packed)
     fragments.packed_color = draw.id_output == TileDraw::IdOutput::primitive
                                  ? memory.source[i] / draw.primitive_triangles
@@ -350,7 +343,7 @@ HWY_INLINE void draw_fragments_of(TileContext& context, std::uint32_t draw_numbe
 inline void draw_fragments(TileContext& context, std::uint32_t draw_number) {
   const TriangleGroup& g = context.memory.group;
   const TileDraw& draw = context.frame.draws[draw_number];
-  const std::uint32_t in_tile = set_up_group(context, has_depth(context.frame, draw), true);
+  const std::uint32_t in_tile = set_up_group(context, draw.path.uses_depth(), true);
   for_each_visible_triangle(context, in_tile, [&](int i, const TileEdges& edges) TESSERA_LOOP_BODY {
     ShadedTriangle triangle;
     fill_shaded_triangle(triangle, context, draw_number, i, is_back(context, draw, i), edges);
@@ -417,8 +410,7 @@ inline void draw_fragments_msaa(TileContext& context, std::uint32_t draw_number)
     g = center;
     move_group(g, -sample_positions(context.samples)[s].x, -sample_positions(context.samples)[s].y);
     set_up_edges(g, context.tile_x, context.tile_y, context.rect);
-    if (has_depth(context.frame, draw))
-      set_up_depth(g, context.frame.depth_format, context.tile_x, context.tile_y);
+    if (draw.path.uses_depth()) set_up_depth(g, context.frame.depth_format, context.tile_x, context.tile_y);
     visible |= g.mask;
   }
   for_each_triangle(visible, [&](int i) TESSERA_LOOP_BODY {

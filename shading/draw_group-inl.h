@@ -13,7 +13,7 @@
 #include "shading/box_pixels-inl.h"
 #include "shading/deferred_shading-inl.h"
 #include "shading/fragment_scalar.h"
-#include "shading/pixel_paths-inl.h"
+#include "shading/no_depth-inl.h"
 #include "shading/small_triangle_pixels-inl.h"
 #include "shading/triangle_pixels-inl.h"
 #include "shading/visible_triangles-inl.h"

@@ -194,7 +194,7 @@ HWY_INLINE bool draw_edges32_msaa(TileContext& context, std::uint32_t draw_numbe
                                     ? packed_color_of(context, draw, i, is_back(context, draw, i))
                                     : id;
     const bool immediate =
-        kColorWrite == ColorWrite::deferred && !draw.deferred && draw.source == ColorSource::interpolated;
+        kColorWrite == ColorWrite::deferred && draw.path.color_write == ColorWrite::interpolated;
     SampledColorEval color;
     if (immediate) color.set_up(context, draw, context.memory.visible_triangles[id], i);
     SampledTrianglePixels<Depth, kDepthTest, kColorWrite> pixels(context, draw, i, value,

@@ -16,15 +16,6 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Those without operations, into RGB buffers, of colours that are there already.
-HWY_INLINE bool can_texture_immediately(const TileFrame& frame, const TileDraw& draw) {
-  return frame.shade_immediately && frame.samples == 1 && draw.ops == nullptr && draw.texture != nullptr &&
-         draw.texture->levels != nullptr && !frame.layout.index && !frame.layout.luminance &&
-         frame.layout.alpha_bits == 0 &&
-         (draw.source == ColorSource::constant || draw.source == ColorSource::interpolated) &&
-         !draw.index[0] && !draw.index[1];
-}
-
 /// One triangle's way through the blocks of a tile.
 template <TexelFilter kFilter>
 struct TexturedBlocks {
@@ -50,7 +41,7 @@ struct TexturedBlocks {
   int pending_count = 0;
 
   HWY_INLINE void set_up(int i) {
-    uses_depth = has_depth(context.frame, draw);
+    uses_depth = draw.path.uses_depth();
     const ColorLayout& layout = context.frame.layout;
     is_rgb8 = layout.r_bits == 8 && layout.g_bits == 8 && layout.b_bits == 8;
     modulates = draw.texture->function == TextureEnv::modulate;
@@ -210,7 +201,7 @@ struct NearestRows {
 inline void draw_textured(TileContext& context, std::uint32_t draw_number) {
   const TriangleGroup& g = context.memory.group;
   const TileDraw& draw = context.frame.draws[draw_number];
-  const std::uint32_t in_tile = set_up_group(context, has_depth(context.frame, draw), true);
+  const std::uint32_t in_tile = set_up_group(context, draw.path.uses_depth(), true);
   for_each_visible_triangle(context, in_tile, [&](int i, const TileEdges& edges) TESSERA_LOOP_BODY {
     ShadedTriangle triangle;
     fill_shaded_triangle(triangle, context, draw_number, i, is_back(context, draw, i), edges);

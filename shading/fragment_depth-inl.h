@@ -16,16 +16,12 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE bool has_depth(const TileFrame& frame, const TileDraw& draw) {
-  return draw.uses_depth && frame.depth_format != DepthFormat::none;
-}
-
 class FragmentDepth {
  public:
   /// Of triangle i of a group whose depth is set up.
   HWY_NOINLINE void set_up(const TileFrame& frame, const TileDraw& draw, const TriangleGroup& g, int i,
                            std::uint32_t source, int tile_x, int tile_y) {
-    if (!has_depth(frame, draw)) return;
+    if (!draw.path.uses_depth()) return;
     const bool has_offset =
         draw.depth_offsets != nullptr || draw.offset_factor != 0 || draw.offset_units != 0;
     const auto move = [&](auto& depth) HWY_ATTR {

@@ -27,7 +27,7 @@ struct GroupBuilder {
   TileContext& context;
   std::uint32_t draw_number = 0;
   const TileDraw* draw = nullptr;
-  DrawGroupFunction draw_group_function = nullptr;
+  DrawGroupFunction draw_elements = nullptr;
   // Points and lines are so small that cache misses of their vertices would be most of the work: while a
   // group is drawn, those of the next come.
   std::uint32_t prefetched[2 * kGroupSize];
@@ -45,7 +45,7 @@ struct GroupBuilder {
       shade_whole_tile(context);
     draw_number = number;
     draw = &next;
-    if (next.texels == nullptr) draw_group_function = select_draw_group(frame, next);
+    draw_elements = draw_group_function(next.path);
     if (context.samples > 1 && next.depth_write && may_raise_depth(next.depth_test))
       reset_hiz(context, kMaxDepthKey);
     // Exact at the draw's own rectangle; the frame buffer's edges may be overdrawn, nobody reads there.
@@ -133,7 +133,7 @@ struct GroupBuilder {
     for (int i = g.count; i < kGroupSize; ++i)
       for (int k = 0; k < 3; ++k)
         g.x[k][i] = g.x[k][0], g.y[k][i] = g.y[k][0], g.z[k][i] = g.z[k][0], g.rw[k][i] = g.rw[k][0];
-    draw_group_function(context, draw_number);
+    draw_elements(context, draw_number);
     g.count = 0;
     if (context.memory.visible_triangles.size() >= kMaxVisibleTriangles) shade_whole_tile(context);
   }

@@ -24,12 +24,11 @@ inline HWY_NOINLINE void draw_pixel_rectangle(TileContext& context, std::uint32_
                              .draw = draw,
                              .ops = draw.ops != nullptr ? *draw.ops : kNoOperations,
                              .triangle = face,
-                             .has_depth = draw.uses_depth && context.frame.depth_format != DepthFormat::none,
+                             .has_depth = draw.path.uses_depth(),
                              .surface = {}};
   if (fragments.ops.stencil)
     fragments.stencil = stencil_test_constants(fragments.ops.faces[0], fragments.ops.stencil_max);
-  fragments.is_packed =
-      draw.id_output != TileDraw::IdOutput::none || (draw.ops == nullptr && has_packed_color(draw));
+  fragments.is_packed = draw.path.color_write == ColorWrite::constant;
   const bool is_first_primitive =
       draw.id_output == TileDraw::IdOutput::primitive || draw.source == ColorSource::per_triangle_packed;
   fragments.packed_color = is_first_primitive ? 0 : draw.packed_color;

@@ -193,7 +193,7 @@ struct LineShape {
 class PackedPixelWriter {
  public:
   HWY_INLINE PackedPixelWriter(TileContext& context, const TileDraw& draw)
-      : context_(context), draw_(draw), uses_depth_(has_depth(context.frame, draw)) {}
+      : context_(context), draw_(draw), uses_depth_(draw.path.uses_depth()) {}
 
   HWY_INLINE bool uses_depth() const { return uses_depth_; }
   HWY_INLINE void store_one(int x, int y, std::int32_t key, std::uint32_t packed_color) const {
@@ -256,7 +256,7 @@ HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext&
 HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext& context,
                              const TileDraw& draw, int i, const LineShape& line, bool back) {
   const LineValues values(context, i, 1, depth_offset_of(context, draw, i));
-  const bool is_packed = has_packed_color(draw);
+  const bool is_packed = draw.path.color_write == ColorWrite::constant;
   LineColorEval colors;
   if (!is_packed) colors.set_up(context, draw, i, back);
   const Int packed_color =
@@ -281,44 +281,71 @@ inline HWY_NOINLINE void draw_covered_blocks(BlockCoverage& bits, std::uint32_t 
                     [&](FragmentTriangle& fragments) HWY_ATTR { bits.draw(fragments, values); });
 }
 
-/// All of a group. Points need no set-up; what lines need is made by `shape_of`.
-/// @param second  see LineValues
-template <class Shape>
-HWY_INLINE void draw_points_or_lines(TileContext& context, std::uint32_t draw_number, int second,
-                                     const Shape& shape_of) {
-  const TriangleGroup& g = context.memory.group;
+HWY_INLINE bool is_back_element(const TileContext& context, const TileDraw& draw, int i) {
+  return draw.facing != nullptr && draw.facing[context.memory.source[i]] == Facing::back;
+}
+
+/// Stores the pixels of a group, without any other step.
+/// @param shape_of  shape_of(i): the shape of element i
+template <class ShapeOf>
+HWY_INLINE void store_elements(TileContext& context, std::uint32_t draw_number, const ShapeOf& shape_of) {
   const TileDraw& draw = context.frame.draws[draw_number];
-  const bool interpolated =
-      draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0] && second != 0;
-  const bool plain = draw.ops == nullptr && context.samples == 1 &&
-                     (interpolated || has_packed_color(draw));  // nothing is to be done but storing
   const PackedPixelWriter pixels(context, draw);
-  for (int i = 0; i < g.count; ++i) {
+  for (int i = 0; i < context.memory.group.count; ++i)
+    write_packed(pixels, context, draw, i, shape_of(i), is_back_element(context, draw, i));
+}
+
+/// Draws the fragments of a group, block by block.
+/// @param second    see LineValues
+/// @param shape_of  shape_of(i): the shape of element i
+template <class ShapeOf>
+HWY_INLINE void draw_element_fragments(TileContext& context, std::uint32_t draw_number, int second,
+                                       const ShapeOf& shape_of) {
+  const TileDraw& draw = context.frame.draws[draw_number];
+  for (int i = 0; i < context.memory.group.count; ++i) {
     const auto shape = shape_of(i);
-    const bool back = draw.facing != nullptr && draw.facing[context.memory.source[i]] == Facing::back;
-    if (plain) {
-      write_packed(pixels, context, draw, i, shape, back);
-      continue;
-    }
     BlockCoverage bits{context, context.memory.touched};
     if (context.samples == 1) shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
     else shape.cover(bits);
     draw_covered_blocks(bits, draw_number, i,
-                        LineValues(context, i, second, depth_offset_of(context, draw, i)), back);
+                        LineValues(context, i, second, depth_offset_of(context, draw, i)),
+                        is_back_element(context, draw, i));
   }
 }
 
+struct PointShapes {
+  const TileContext& context;
+  float size;
+
+  HWY_INLINE PointShapes(const TileContext& tile_context, const TileDraw& draw)
+      : context(tile_context), size(draw.size) {}
+  HWY_INLINE PointShape operator()(int i) const {
+    return {context, vertex_of(context.memory.group, i, 0), size};
+  }
+};
+struct LineShapes {
+  const TileContext& context;
+  float width;
+  LineSteps steps;  // of the group; with one sample
+
+  HWY_INLINE LineShapes(const TileContext& tile_context, const TileDraw& draw)
+      : context(tile_context), width(draw.size) {
+    if (context.samples == 1) steps.set_up(context.memory.group, rounded_size(width));
+  }
+  HWY_INLINE LineShape operator()(int i) const { return {context, steps, i, width}; }
+};
+
 inline void draw_points(TileContext& context, std::uint32_t draw_number) {
-  const float size = context.frame.draws[draw_number].size;
-  draw_points_or_lines(context, draw_number, 0, [&](int i) {
-    return PointShape{context, vertex_of(context.memory.group, i, 0), size};
-  });
+  store_elements(context, draw_number, PointShapes(context, context.frame.draws[draw_number]));
 }
 inline void draw_lines(TileContext& context, std::uint32_t draw_number) {
-  const float width = context.frame.draws[draw_number].size;
-  LineSteps steps;
-  if (context.samples == 1) steps.set_up(context.memory.group, rounded_size(width));
-  draw_points_or_lines(context, draw_number, 1, [&](int i) { return LineShape{context, steps, i, width}; });
+  store_elements(context, draw_number, LineShapes(context, context.frame.draws[draw_number]));
+}
+inline void draw_point_fragments(TileContext& context, std::uint32_t draw_number) {
+  draw_element_fragments(context, draw_number, 0, PointShapes(context, context.frame.draws[draw_number]));
+}
+inline void draw_line_fragments(TileContext& context, std::uint32_t draw_number) {
+  draw_element_fragments(context, draw_number, 1, LineShapes(context, context.frame.draws[draw_number]));
 }
 
 }  // namespace HWY_NAMESPACE

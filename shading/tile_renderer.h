@@ -16,6 +16,7 @@
 #include "raster/triangle_setup.h"
 #include "shading/fragment_ops.h"
 #include "shading/lighting.h"
+#include "shading/pixel_path.h"
 #include "shading/texture.h"
 #include "shading/tile_accumulation.h"
 
@@ -34,6 +35,8 @@ enum class ColorSource : std::uint8_t {
 
 /// What the tiles need of a draw. Pointers are the frame's.
 struct TileDraw {
+  PixelPath path;  ///< choose_pixel_path() of what follows
+
   Topology topology = Topology::triangles;
   const WindowVertex* vertices = nullptr;
   const std::uint32_t* indices = nullptr;  ///< null: vertices in order
@@ -129,6 +132,8 @@ struct TileFrame {
   /// is looked at.
   bool loads_color = false, loads_depth = false, loads_stencil = false;
 };
+
+PixelPathFrame pixel_path_frame(const TileFrame& frame, InstructionSet isa);
 
 /// Words to the frame's layout from colours 0..1; alpha where it has planes.
 std::uint32_t pack_color_or_index(const ColorLayout& layout, const PaletteSearch* search, float r, float g,

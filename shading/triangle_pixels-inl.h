@@ -12,7 +12,7 @@
 #include "raster/coverage-inl.h"
 #include "shading/fragment_ops-inl.h"
 #include "shading/fragment_scalar.h"
-#include "shading/pixel_paths-inl.h"
+#include "shading/no_depth-inl.h"
 #include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -336,7 +336,7 @@ std::span<const PolygonMode> styles_of(const DrawPlan& plan) {
   return {kInOrder + first, last - first + 1};
 }
 
-void build_tile_draws(FrameCommands& commands) {
+void build_tile_draws(FrameCommands& commands, const PixelPathFrame& frame) {
   for (const GeometryDraw& geometry : commands.geometry) {
     const DrawPlan& plan = *geometry.plan;
     DrawBuffers& buffers = *geometry.buffers;
@@ -401,6 +401,7 @@ void build_tile_draws(FrameCommands& commands) {
     }
     const std::size_t plan_number = static_cast<std::size_t>(&geometry - commands.geometry.data());
     const auto add = [&] {
+      draw.path = choose_pixel_path(frame, draw);
       commands.tile_draws.push_back(draw);
       commands.tile_draw_plan.push_back(plan_number);
     };

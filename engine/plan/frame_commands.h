@@ -67,6 +67,6 @@ void plan_frame(FrameCommands& commands, FrameRecording& recording, bool present
 std::span<const PolygonMode> styles_of(const DrawPlan& plan);
 
 /// Fills in the tiles' view of the draws; after the vertex stage's memory is there.
-void build_tile_draws(FrameCommands& commands);
+void build_tile_draws(FrameCommands& commands, const PixelPathFrame& frame);
 
 }  // namespace tessera::detail

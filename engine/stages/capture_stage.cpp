@@ -28,13 +28,14 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
       !count_fragments)
     return;
   passes_.reserve(4);  // frames of passes point into them
-  if (!capture.draw_ids.empty()) add_pass(PassKind::draw_ids, commands, frame);
-  if (!capture.primitive_ids.empty()) add_pass(PassKind::primitive_ids, commands, frame);
-  if (!capture.normals.empty()) add_pass(PassKind::normals, commands, frame);
-  if (count_fragments) add_pass(PassKind::fragments, commands, frame);
+  if (!capture.draw_ids.empty()) add_pass(PassKind::draw_ids, commands, frame, isa);
+  if (!capture.primitive_ids.empty()) add_pass(PassKind::primitive_ids, commands, frame, isa);
+  if (!capture.normals.empty()) add_pass(PassKind::normals, commands, frame, isa);
+  if (count_fragments) add_pass(PassKind::fragments, commands, frame, isa);
 }
 
-void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame) {
+void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame,
+                            InstructionSet isa) {
   Pass& pass = passes_.emplace_back(Pass{kind, frame, commands.tile_draws, commands.clears, {}});
   pass.ops.reserve(pass.draws.size());  // draws point into it
   for (std::size_t i = 0; i < pass.draws.size(); ++i) {
@@ -88,6 +89,8 @@ void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const 
   pass.frame.samples = 1;  // what is seen at the centre
   pass.frame.draws = pass.draws.data();
   pass.frame.clears = pass.clears.data();
+  const PixelPathFrame path_frame = pixel_path_frame(pass.frame, isa);
+  for (TileDraw& draw : pass.draws) draw.path = choose_pixel_path(path_frame, draw);
   pass.frame.accumulation_count = 0;  // colours that come back from there are no draw's
 }
 

@@ -240,7 +240,11 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   const bool is_filled = bin_stage.fill({0, 0, grid.columns(), grid.rows()}, progress);
   count_triangles(stats, bin_stage.counts());
   stats.bin_passes = 1;
-  build_tile_draws(commands);
+  build_tile_draws(commands, {.layout = target.layout,
+                              .depth_format = target.depth_format,
+                              .samples = target.format.samples,
+                              .shade_immediately = !options.defer_shading,
+                              .isa = isa});
   stats.binning_seconds = clock.lap();
 
   TileFrame frame;
