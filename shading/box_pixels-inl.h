@@ -15,6 +15,7 @@
 #include "framebuffer/check.h"
 #include "raster/coverage-inl.h"
 #include "raster/depth-inl.h"
+#include "shading/color_eval-inl.h"
 #include "shading/interpolate-inl.h"
 #include "shading/no_depth-inl.h"
 #include "shading/tile_context-inl.h"

@@ -10,7 +10,6 @@
 #include <algorithm>
 
 #include "shading/draw_dispatch-inl.h"
-#include "shading/pixel_rectangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {

@@ -113,44 +113,6 @@ struct RelativeRw {
   HWY_INLINE bool equal() const { return of[0] == of[1]; }
 };
 
-/// Colours of an RGB buffer, interpolated along a line.
-struct LineColorEval {
-  float first[3], change[3], max_level[3], rw[2];
-  int shift[3];
-
-  HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw, int i, bool back) {
-    const ColorLayout& layout = context.frame.layout;
-    const int bits[3] = {layout.r_bits, layout.g_bits, layout.b_bits},
-              shifts[3] = {layout.r_shift(), layout.g_shift(), 0};
-    for (int c = 0; c < 3; ++c) {
-      const int attribute = draw.color_attribute[back ? 1 : 0] + c;
-      first[c] = context.memory.attributes[0][i][attribute];
-      change[c] = context.memory.attributes[1][i][attribute] - first[c];
-      max_level[c] = static_cast<float>((1 << bits[c]) - 1);
-      shift[c] = shifts[c];
-    }
-    const RelativeRw relative(context.memory.group, i, 1);
-    for (int k = 0; k < 2; ++k) rw[k] = relative.of[k];
-  }
-  /// Equation 3.6
-  HWY_INLINE Int packed(const Doubles& parameters) const {
-    Float t = to_floats(parameters);
-    if (rw[0] != rw[1]) {
-      const Float far = hn::Mul(t, splat(rw[1])),
-                  sum = hn::Add(hn::Mul(hn::Sub(splat(1.0f), t), splat(rw[0])), far);
-      t = hn::Div(far, sum);
-      t = hn::IfThenElseZero(hn::IsFinite(t), t);  // as barycentric_edges64
-    }
-    Int word = hn::Zero(kInt);
-    for (int c = 0; c < 3; ++c) {
-      const Float color = clamped_unit(mul_add(t, splat(change[c]), splat(first[c])));
-      word = hn::Or(word,
-                    hn::ShiftLeftSame(truncate(mul_add(color, splat(max_level[c]), splat(0.5f))), shift[c]));
-    }
-    return word;
-  }
-};
-
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();

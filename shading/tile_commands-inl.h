@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "shading/deferred_shading_msaa-inl.h"
+#include "shading/draw_functions-inl.h"
 #include "shading/resolve-inl.h"
 #include "shading/tile_accumulation.h"
 #include "shading/tile_renderer.h"

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "raster/coverage-inl.h"
+#include "shading/color_eval-inl.h"
 #include "shading/fragment_ops-inl.h"
 #include "shading/fragment_scalar.h"
 #include "shading/no_depth-inl.h"

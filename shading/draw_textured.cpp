@@ -1,20 +1,20 @@
-// Draws of textured triangles where each pixel that is visible is shaded at once: coordinates, texels and
-// colours stay in registers. The same bits as where they wait (deferred_shading-inl.h).
-#if defined(TESSERA_SHADING_DRAW_TEXTURED_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_DRAW_TEXTURED_INL_H_
-#undef TESSERA_SHADING_DRAW_TEXTURED_INL_H_
-#else
-#define TESSERA_SHADING_DRAW_TEXTURED_INL_H_
-#endif
+// Textured triangles that are shaded at once: texture coordinates, texels and colors stay in registers. The
+// same bits as deferred shading.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/draw_textured.cpp"
+#include "framebuffer/lanes.h"
 
-#include <bit>
-
-#include "shading/draw_fragments-inl.h"
+#include "shading/draw_functions-inl.h"
+#include "shading/fragment_depth-inl.h"
 #include "shading/texture_coordinates-inl.h"
+#include "shading/texture_env-inl.h"
+#include "shading/texture_sampling-inl.h"
+#include "shading/visible_triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
+#if HWY_TARGET != HWY_SCALAR  // one lane gains nothing: choose_pixel_path() takes another path
 
 /// One triangle's way through the blocks of a tile.
 template <TexelFilter kFilter>
@@ -198,7 +198,7 @@ struct NearestRows {
   }
 };
 
-inline void draw_textured(TileContext& context, std::uint32_t draw_number) {
+void draw_textured_triangles(TileContext& context, std::uint32_t draw_number) {
   const TriangleGroup& g = context.memory.group;
   const TileDraw& draw = context.frame.draws[draw_number];
   const std::uint32_t in_tile = set_up_group(context, draw.path.uses_depth(), true);
@@ -226,8 +226,7 @@ inline void draw_textured(TileContext& context, std::uint32_t draw_number) {
   });
 }
 
+#endif
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
-
-#endif

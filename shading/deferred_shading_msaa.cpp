@@ -1,18 +1,17 @@
-// Shading once for each visible triangle of each pixel, where pixels have several samples: the colour comes
-// about at the pixel's centre and goes to the samples that see the triangle.
-#if defined(TESSERA_SHADING_DEFERRED_SHADING_MSAA_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_DEFERRED_SHADING_MSAA_INL_H_
-#undef TESSERA_SHADING_DEFERRED_SHADING_MSAA_INL_H_
-#else
-#define TESSERA_SHADING_DEFERRED_SHADING_MSAA_INL_H_
-#endif
+// Deferred shading where pixels have several samples: a color is evaluated once for each triangle that is
+// visible in a pixel, at the pixel's center, and goes to the samples that see the triangle.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/deferred_shading_msaa.cpp"
+#include "framebuffer/lanes.h"
 
 #include <algorithm>
 #include <bit>
 
 #include "raster/lane_packing-inl.h"
-#include "shading/deferred_shading-inl.h"
-#include "shading/fragment_ops-inl.h"
+#include "shading/batch_colors-inl.h"
+#include "shading/batch_surface-inl.h"
+#include "shading/draw_functions-inl.h"
+#include "shading/visibility-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
@@ -48,20 +47,14 @@ struct SampledBatch : BatchSurface {
   SampledSpan spans[kBatchPoints];  // each has a point at least
 };
 
-/// Words of the batch's points, in their order.
+/// Packed colors of the batch's points, in order.
 HWY_INLINE void shade_points(TileContext& context, const SampledBatch& points, std::int32_t* packed) {
-  const TileDraw& draw = context.frame.draws[points.draw];
-  ShadingBatch& batch = context.memory.batch;
-  const bool per_pixel = draw.source == ColorSource::per_pixel;
-  const int whole = (points.count + kLanes - 1) / kLanes * kLanes;
-  if (per_pixel) light_points_lanes(*draw.programs[points.back ? 1 : 0], batch, whole);
-  if (draw.source == ColorSource::constant) fill_colors(draw, points.back, batch);
-  if (draw.topology == Topology::lines && draw.source == ColorSource::interpolated)
-    clamp_colors(batch, points.count);  // pixels may lie beyond the ends
-  if (points.texture != nullptr) apply_texture(*points.texture, batch, whole);
+  evaluate_colors(context, points, (points.count + kLanes - 1) / kLanes * kLanes);
   for (int point = 0; point < points.count; point += kLanes) {
     const int count = std::min(points.count - point, kLanes);
-    hn::Store(quantize_chunk(context.frame, batch, point, (1u << count) - 1), kInt, packed + point);
+    // Colors of frames with several samples are never indices or scaled to levels.
+    hn::Store(pack_unit_colors(context.frame, context.memory.batch, point, (1u << count) - 1), kInt,
+              packed + point);
   }
 }
 
@@ -118,7 +111,7 @@ HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, c
               : interpolate(at, values[j]);
       hn::StoreU(hn::TableLookupLanes(value, packing), kFloat, target + points.count);
     }
-    if (kCount == 0 && has_coordinates(points)) add_coordinates(context, points, triangle, at, bits);
+    if (kCount == 0 && points.gathers_coordinates) add_coordinates(context, points, triangle, at, bits);
     SampledSpan& pixels = points.spans[points.span_count++];
     pixels.point = points.count;
     pixels.index = index + chunk * kLanes;
@@ -132,7 +125,7 @@ HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, c
 inline HWY_NOINLINE void add_points(TileContext& context, SampledBatch& points,
                                     const ShadedTriangle& triangle, int bx, int by, int index,
                                     const SampleMasks& visible) {
-  switch (points.adjacent && !has_coordinates(points) ? points.attribute_count : 0) {
+  switch (points.adjacent && !points.gathers_coordinates ? points.attribute_count : 0) {
     case 3: return add_points_counted<3>(context, points, triangle, bx, by, index, visible);
     case 6: return add_points_counted<6>(context, points, triangle, bx, by, index, visible);
     default: return add_points_counted<0>(context, points, triangle, bx, by, index, visible);
@@ -207,7 +200,7 @@ HWY_INLINE bool add_block(TileContext& context, SampledBatch& points, int bx, in
 
 /// Shades what was collected in the whole tile, and forgets it.
 template <int kSamples>
-HWY_NOINLINE void shade_visible_msaa(TileContext& context) {
+HWY_NOINLINE void shade_visible_samples(TileContext& context) {
   SampledBatch points;
   for (int by = 0; by < context.tile_size; by += 4) {
     for (int bx = 0; bx < context.tile_size; bx += 4) {
@@ -224,19 +217,11 @@ HWY_NOINLINE void shade_visible_msaa(TileContext& context) {
   shade_sampled_batch(context, points);
 }
 
-/// Shades everything that waits for its colour.
-HWY_INLINE void shade_whole_tile(TileContext& context) {
-  if (!context.memory.visible_triangles.empty()) {
-    if (context.samples == 4) shade_visible_msaa<4>(context);
-    else if (context.samples > 1) shade_visible_msaa<kMaxSamples>(context);
-    else shade_visible(context, 0, 0, context.tile_size - 1, context.tile_size - 1);
-  }
-  context.memory.visible_triangles.clear();
-  context.memory.edges64.clear();
+void shade_visible_msaa(TileContext& context) {
+  if (context.samples == 4) shade_visible_samples<4>(context);
+  else shade_visible_samples<kMaxSamples>(context);
 }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
-
-#endif

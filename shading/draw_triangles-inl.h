@@ -1,19 +1,20 @@
 // Draws a group of set-up triangles into a tile: coverage by size, depth, and colour at once or later. One
 // function for each combination of depth format, depth test and way of colouring that can occur; a draw picks
 // one and knows no other.
-#if defined(TESSERA_SHADING_DRAW_GROUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_DRAW_GROUP_INL_H_
-#undef TESSERA_SHADING_DRAW_GROUP_INL_H_
+#if defined(TESSERA_SHADING_DRAW_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_DRAW_TRIANGLES_INL_H_
+#undef TESSERA_SHADING_DRAW_TRIANGLES_INL_H_
 #else
-#define TESSERA_SHADING_DRAW_GROUP_INL_H_
+#define TESSERA_SHADING_DRAW_TRIANGLES_INL_H_
 #endif
 
 #include <bit>
 
 #include "shading/box_pixels-inl.h"
-#include "shading/deferred_shading-inl.h"
+#include "shading/draw_functions-inl.h"
 #include "shading/fragment_scalar.h"
 #include "shading/no_depth-inl.h"
+#include "shading/primitive_color-inl.h"
 #include "shading/small_triangle_pixels-inl.h"
 #include "shading/triangle_pixels-inl.h"
 #include "shading/visible_triangles-inl.h"
@@ -21,28 +22,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
-
-HWY_INLINE std::size_t provoking_vertex(const TileDraw& draw, std::uint32_t element) {
-  const std::size_t corner = std::size_t{element} * static_cast<std::size_t>(draw.element_corners) +
-                             static_cast<std::size_t>(draw.provoking);
-  return draw.indices ? draw.indices[corner] : corner;
-}
-
-/// The word of triangle i of the group, where it has one.
-HWY_INLINE std::uint32_t packed_color_of(const TileContext& context, const TileDraw& draw, int i, bool back) {
-  if (draw.source == ColorSource::per_triangle_packed)
-    return draw.packed_colors[back ? 1 : 0][context.memory.source[i]];
-  if (draw.source != ColorSource::per_vertex_packed) return draw.packed_color;
-  return draw.packed_colors[back ? 1 : 0][provoking_vertex(draw, context.memory.source[i])];
-}
-
-/// The colour of a flat triangle: its own, or that of its provoking vertex.
-HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, bool back) {
-  const int face = back ? 1 : 0;
-  if (draw.face_colors[face] != nullptr) return draw.face_colors[face] + std::size_t{source} * 4;
-  return draw.attributes + provoking_vertex(draw, source) * static_cast<std::size_t>(draw.attribute_stride) +
-         draw.color_attribute[face];
-}
 
 /// Everything but pixels of triangle i of the group.
 template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
@@ -138,7 +117,7 @@ struct SmallTriangles {
 };
 
 template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
-void draw_group(TileContext& context, std::uint32_t draw_number) {
+void draw_triangles(TileContext& context, std::uint32_t draw_number) {
   TileWorkspace::Memory& memory = context.memory;
   const TriangleGroup& g = memory.group;
   const TileDraw& draw = context.frame.draws[draw_number];
@@ -206,6 +185,18 @@ void draw_group(TileContext& context, std::uint32_t draw_number) {
   for_each_visible_triangle(context, in_tile & ~small.uncovered, draw_without_edges, draw_by_edges);
   if constexpr (kColorWrite == ColorWrite::interpolated) {
     if (small_pixels.count != 0) draw_small_triangles<Depth, kDepthTest>(context, draw, small_pixels);
+  }
+}
+
+/// The function for a path, of all those with one type of depth and one path of the depth test.
+template <class Depth, DepthTestPath kDepthTest>
+DrawGroupFunction triangles_function_by_color(ColorWrite color_write) {
+  switch (color_write) {
+    case ColorWrite::none: return &draw_triangles<Depth, kDepthTest, ColorWrite::none>;
+    case ColorWrite::constant: return &draw_triangles<Depth, kDepthTest, ColorWrite::constant>;
+    case ColorWrite::interpolated: return &draw_triangles<Depth, kDepthTest, ColorWrite::interpolated>;
+    case ColorWrite::blended: return &draw_triangles<Depth, DepthTestPath::generic, ColorWrite::blended>;
+    default: return &draw_triangles<Depth, kDepthTest, ColorWrite::deferred>;
   }
 }
 

@@ -1,38 +1,19 @@
-// Points and lines in a tile. Few of their pixels lie in one block: each is covered, and has its depth, by
-// itself. Plain colours are stored as they come; all others go block by block through what fragments of
-// triangles go through.
-#if defined(TESSERA_SHADING_POINTS_LINES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_POINTS_LINES_INL_H_
-#undef TESSERA_SHADING_POINTS_LINES_INL_H_
-#else
-#define TESSERA_SHADING_POINTS_LINES_INL_H_
-#endif
+// Points and lines in a tile. Few of their pixels share a block: each pixel's coverage and depth are found by
+// themselves. Plain colors are stored at once; all others go through FragmentTriangle, block by block.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/draw_points_lines.cpp"
+#include "framebuffer/lanes.h"
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
 
-#include "raster/line_steps-inl.h"
-#include "raster/point_line_coverage.h"
-#include "shading/draw_fragments-inl.h"
-#include "shading/point_line_values-inl.h"
+#include "shading/color_eval-inl.h"
+#include "shading/draw_functions-inl.h"
+#include "shading/point_line_shapes-inl.h"
+#include "shading/visible_triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
-
-/// The centre of a pixel of the tile.
-HWY_INLINE LinePoint center_of(const TileContext& context, int x, int y) {
-  return {(context.tile_x + x) * kSubpixelScale + kHalfPixel,
-          (context.tile_y + y) * kSubpixelScale + kHalfPixel};
-}
-HWY_INLINE LinePoint moved(LinePoint p, SamplePosition by) { return {p.x + by.x, p.y + by.y}; }
-HWY_INLINE LinePoint vertex_of(const TriangleGroup& g, int i, int k) { return {g.x[k][i], g.y[k][i]}; }
-HWY_INLINE PixelRect in_tile(const TileContext& context, const PixelRect& rect) {
-  return intersect({rect.x0 - context.tile_x, rect.y0 - context.tile_y, rect.x1 - context.tile_x,
-                    rect.y1 - context.tile_y},
-                   context.rect);
-}
 
 /// Of edges and corners of polygons.
 HWY_INLINE double depth_offset_of(const TileContext& context, const TileDraw& draw, int i) {
@@ -69,125 +50,6 @@ HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileContext& contex
   t.draw = draw;
   store_edges64(t, context.memory, wide);
 }
-
-/// Blocks with bits of the pixels that are covered, in each sample.
-struct BlockCoverage {
-  TileContext& context;
-  TouchedBlocks& blocks;
-
-  HWY_INLINE void add(int x, int y, std::uint32_t samples) {
-    const int block = context.block_index(x, y) / kBlockPixels;
-    if (blocks.samples[block] == 0) blocks.list[blocks.count++] = static_cast<std::uint16_t>(block);
-    blocks.samples[block] |= samples;
-    const std::uint32_t bit = 1u << ((y & 3) * 4 + (x & 3));
-    for (std::uint32_t left = samples; left != 0; left &= left - 1)
-      blocks.bits[std::countr_zero(left)][block] |= static_cast<std::uint16_t>(bit);
-  }
-
-  /// Runs them through `fragments`, and forgets them.
-  HWY_INLINE void draw(FragmentTriangle& fragments, const LineValues& values) {
-    const int columns = context.tile_size >> 2;
-    for (int n = 0; n < blocks.count; ++n) {
-      const int block = blocks.list[n], bx = block % columns * 4, by = block / columns * 4;
-      BlockFragments covered[kMaxSamples];
-      for (int s = 0; s < context.samples; ++s) {
-        const std::uint32_t bits = blocks.bits[s][block];
-        for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-          covered[s].covered[chunk] = hn::VecFromMask(kInt, mask_from_bits(chunk_bits(bits, chunk)));
-          covered[s].keys[chunk] = hn::Zero(kInt);
-        }
-        if (fragments.has_depth)
-          block_keys(bx, by, context.samples > 1 ? sample_positions(context.samples)[s] : SamplePosition{},
-                     values, covered[s].keys);
-        blocks.bits[s][block] = 0;
-      }
-      blocks.samples[block] = 0;
-      fragments(bx, by, covered);
-    }
-    blocks.count = 0;
-  }
-
- private:
-  HWY_INLINE void block_keys(int bx, int by, SamplePosition position, const LineValues& values,
-                             Int (&keys)[kChunksPerBlock]) const {
-    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-      keys[chunk] = values.depth.keys(values.parameters(hn::Add(splat(bx), block_columns(chunk)),
-                                                        hn::Add(splat(by), block_rows(chunk)), position));
-  }
-};
-
-/// The samples of `shape` in the pixels of a rectangle.
-template <class Shape>
-HWY_INLINE void cover_samples(BlockCoverage& bits, const Shape& shape, const PixelRect& pixels) {
-  const TileContext& context = bits.context;
-  for (int y = pixels.y0; y < pixels.y1; ++y)
-    for (int x = pixels.x0; x < pixels.x1; ++x) {
-      const LinePoint center = center_of(context, x, y);
-      std::uint32_t samples = 0;
-      for (int s = 0; s < context.samples; ++s)
-        samples |= shape.covers(moved(center, sample_positions(context.samples)[s])) ? 1u << s : 0u;
-      if (samples != 0) bits.add(x, y, samples);
-    }
-}
-
-struct PointShape {
-  const TileContext& context;
-  LinePoint at;
-  float size;
-
-  /// Calls pixel(x, y) for each, of one sample.
-  template <class Pixel>
-  HWY_INLINE void for_each(const Pixel& pixel) const {
-    const PixelRect square = in_tile(context, point_square(at, rounded_size(size)));
-    for (int y = square.y0; y < square.y1; ++y)
-      for (int x = square.x0; x < square.x1; ++x) pixel(x, y);
-  }
-  HWY_INLINE void cover(BlockCoverage& bits) const {
-    const PointDisc disc(at, snapped_size(size));
-    const std::int32_t reach = disc.reach() + kHalfPixel;
-    cover_samples(bits, disc, in_tile(context, pixels_near(at, at, reach)));
-  }
-};
-
-struct LineShape {
-  const TileContext& context;
-  const LineSteps& steps;  // of the group
-  int i;                   // of the line
-  float width;
-
-  /// Calls pixels(x, y, inside), of one sample.
-  template <class Pixels>
-  HWY_INLINE void for_each_vector(const Pixels& pixels) const {
-    const PixelRect& r = context.rect;
-    steps.for_each(
-        i, {r.x0 + context.tile_x, r.y0 + context.tile_y, r.x1 + context.tile_x, r.y1 + context.tile_y},
-        [&](Int x, Int y, LaneMask inside) HWY_ATTR {
-          pixels(hn::Sub(x, splat(context.tile_x)), hn::Sub(y, splat(context.tile_y)), inside);
-        });
-  }
-  template <class Pixel>
-  HWY_INLINE void for_each(const Pixel& pixel) const {
-    for_each_vector([&](Int x, Int y, LaneMask inside) HWY_ATTR {
-      alignas(64) std::int32_t columns[kLanes], rows[kLanes];
-      hn::Store(x, kInt, columns);
-      hn::Store(y, kInt, rows);
-      for (std::uint32_t left = mask_bits(kInt, inside); left != 0; left &= left - 1)
-        pixel(columns[std::countr_zero(left)], rows[std::countr_zero(left)]);
-    });
-  }
-  HWY_INLINE void cover(BlockCoverage& bits) const {
-    const LinePoint a = vertex_of(context.memory.group, i, 0), b = vertex_of(context.memory.group, i, 1);
-    const LineRectangle rectangle(a, b, snapped_size(width));
-    const PixelRect pixels = in_tile(context, pixels_near(a, b, line_reach(width, context.samples)));
-    for (int by = pixels.y0 & ~3; by < pixels.y1; by += 4)
-      for (int bx = pixels.x0 & ~3; bx < pixels.x1; bx += 4) {
-        const LinePoint center{(context.tile_x + bx + 2) * kSubpixelScale,
-                               (context.tile_y + by + 2) * kSubpixelScale};
-        if (rectangle.may_touch(center, 2 * kSubpixelScale))
-          cover_samples(bits, rectangle, intersect(pixels, {bx, by, bx + 4, by + 4}));
-      }
-  }
-};
 
 /// Words that are just stored, where that is all there is to do.
 class PackedPixelWriter {
@@ -277,7 +139,7 @@ inline HWY_NOINLINE void draw_covered_blocks(BlockCoverage& bits, std::uint32_t 
   if (bits.blocks.count == 0) return;
   ShadedTriangle shaded;
   fill_shaded_point_or_line(shaded, context, draw_number, i, back);
-  draw_fragments_of(context, draw_number, i, shaded,
+  draw_fragments_of(context, i, shaded,
                     [&](FragmentTriangle& fragments) HWY_ATTR { bits.draw(fragments, values); });
 }
 
@@ -335,21 +197,19 @@ struct LineShapes {
   HWY_INLINE LineShape operator()(int i) const { return {context, steps, i, width}; }
 };
 
-inline void draw_points(TileContext& context, std::uint32_t draw_number) {
+void draw_points(TileContext& context, std::uint32_t draw_number) {
   store_elements(context, draw_number, PointShapes(context, context.frame.draws[draw_number]));
 }
-inline void draw_lines(TileContext& context, std::uint32_t draw_number) {
+void draw_lines(TileContext& context, std::uint32_t draw_number) {
   store_elements(context, draw_number, LineShapes(context, context.frame.draws[draw_number]));
 }
-inline void draw_point_fragments(TileContext& context, std::uint32_t draw_number) {
+void draw_point_fragments(TileContext& context, std::uint32_t draw_number) {
   draw_element_fragments(context, draw_number, 0, PointShapes(context, context.frame.draws[draw_number]));
 }
-inline void draw_line_fragments(TileContext& context, std::uint32_t draw_number) {
+void draw_line_fragments(TileContext& context, std::uint32_t draw_number) {
   draw_element_fragments(context, draw_number, 1, LineShapes(context, context.frame.draws[draw_number]));
 }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,16 +1,20 @@
-// Draws without operations where pixels have several samples: what a sample sees of a triangle is what the
-// pixel's centre sees of the triangle moved the other way (raster/sample_positions.h).
-#if defined(TESSERA_SHADING_DRAW_GROUP_MSAA_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_DRAW_GROUP_MSAA_INL_H_
-#undef TESSERA_SHADING_DRAW_GROUP_MSAA_INL_H_
+// Pixels of one narrow triangle at all samples. A sample sees of a triangle what the pixel's center sees of
+// the triangle moved by the opposite of the sample's offset (raster/sample_positions.h).
+#if defined(TESSERA_SHADING_MSAA_TRIANGLE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_MSAA_TRIANGLE_PIXELS_INL_H_
+#undef TESSERA_SHADING_MSAA_TRIANGLE_PIXELS_INL_H_
 #else
-#define TESSERA_SHADING_DRAW_GROUP_MSAA_INL_H_
+#define TESSERA_SHADING_MSAA_TRIANGLE_PIXELS_INL_H_
 #endif
 
 #include <limits>
 
+#include "raster/coverage-inl.h"
+#include "raster/depth-inl.h"
 #include "raster/sample_positions.h"
-#include "shading/draw_fragments-inl.h"
+#include "shading/color_eval-inl.h"
+#include "shading/no_depth-inl.h"
+#include "shading/pixel_path.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
@@ -34,37 +38,9 @@ HWY_INLINE bool hiz_culls(const TileContext& context, std::int32_t min_depth_key
   return true;
 }
 
-/// Colours of a triangle that are interpolated at once, at the pixels' centres.
-struct SampledColorEval {
-  const ShadedTriangle* triangle = nullptr;
-  const ColorLayout* layout = nullptr;
-  Interpolant r, g, b;
-  Int to_center[3];  // from the edges that the blocks are found by
-
-  HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw, const ShadedTriangle& shaded,
-                         int i) {
-    triangle = &shaded;
-    layout = &context.frame.layout;
-    const int attribute = draw.color_attribute[shaded.back ? 1 : 0];
-    r = make_interpolant(shaded, attribute, true), g = make_interpolant(shaded, attribute + 1, true),
-    b = make_interpolant(shaded, attribute + 2, true);
-    for (int k = 0; k < 3; ++k)
-      to_center[k] =
-          hn::Sub(splat(shaded.edges.e[k]), splat(context.memory.samples->samples32.max_edge[k][i]));
-  }
-  HWY_NOINLINE Int packed(Int e0, Int e1, Int e2) const {
-    const Barycentric at = barycentric_from_edges(*triangle, hn::Add(e0, to_center[0]),
-                                                  hn::Add(e1, to_center[1]), hn::Add(e2, to_center[2]));
-    return pack_colors(
-        *layout,
-        {{interpolate_clamped(at, r), interpolate_clamped(at, g), interpolate_clamped(at, b), splat(1.0f)}},
-        splat(0.5f));
-  }
-};
-
 /// One narrow triangle's way through the blocks of a tile, at all samples of a pixel.
 template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
-struct SampledTrianglePixels {
+struct MsaaTrianglePixels {
   TileContext& context;
   const TileDraw& draw;
   Depth depth;
@@ -72,16 +48,16 @@ struct SampledTrianglePixels {
   Edges32 edges;              // those that the blocks are found by: never below any sample's
   Int below[kMaxSamples][3];  // what a sample's edges are more than those
   std::int32_t *stored_depth[kMaxSamples],
-      *stored[kMaxSamples];       // of the sample: depth; the packed colors or triangle ids that it writes
-  Int value;                      // the packed color, or the triangle id
-  const SampledColorEval* color;  // deferred: packed colors in place of triangle numbers; or null
+      *stored[kMaxSamples];    // of the sample: depth; the packed colors or triangle ids that it writes
+  Int value;                   // the packed color, or the triangle id
+  const MsaaColorEval* color;  // deferred: packed colors in place of triangle numbers; or null
   Int writable, depth_writable;
   std::int32_t min_depth_key;    // no sample of the triangle has a smaller depth key
   Int visible = hn::Zero(kInt);  // minus the number of pixels that passed at any sample, in each lane
 
-  HWY_INLINE SampledTrianglePixels(TileContext& tile_context, const TileDraw& tile_draw, int i,
-                                   std::uint32_t new_value, const SampledColorEval* interpolated,
-                                   std::int32_t nearest_key)
+  HWY_INLINE MsaaTrianglePixels(TileContext& tile_context, const TileDraw& tile_draw, int i,
+                                std::uint32_t new_value, const MsaaColorEval* interpolated,
+                                std::int32_t nearest_key)
       : context(tile_context),
         draw(tile_draw),
         edges(tile_edges32(tile_context.memory.group, i)),
@@ -171,72 +147,6 @@ struct SampledTrianglePixels {
       context.memory.samples->hiz_max[block / kBlockPixels] = hn::GetLane(hn::MaxOfLanes(kInt, hiz_max));
   }
 };
-
-/// A group without wide triangles: one walk through the blocks of a triangle for all samples. True if one of
-/// them waits for its colour, by numbers from `id` on.
-/// @pre set up, with the samples' reach
-template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
-HWY_INLINE bool draw_edges32_msaa(TileContext& context, std::uint32_t draw_number, std::uint32_t id) {
-  const TriangleGroup& g = context.memory.group;
-  const TileDraw& draw = context.frame.draws[draw_number];
-  set_up_samples(g, context.memory.samples->samples32, context.samples,
-                 kHasDepth<Depth> ? context.frame.depth_format : DepthFormat::none, context.tile_x,
-                 context.tile_y);
-  bool any_visible = false;
-  for (std::uint32_t left = g.mask; left != 0; left &= left - 1, ++id) {
-    const int i = std::countr_zero(left);
-    std::int32_t min_depth_key = 0;
-    if constexpr (kUsesHiz<Depth, kDepthTest>) {
-      min_depth_key = Depth::nearest_key(g, i, context.frame.depth_format);
-      if (hiz_culls(context, min_depth_key, g.x0[i], g.y0[i], g.x1[i], g.y1[i])) continue;
-    }
-    const std::uint32_t value = kColorWrite == ColorWrite::constant
-                                    ? packed_color_of(context, draw, i, is_back(context, draw, i))
-                                    : id;
-    const bool immediate =
-        kColorWrite == ColorWrite::deferred && draw.path.color_write == ColorWrite::interpolated;
-    SampledColorEval color;
-    if (immediate) color.set_up(context, draw, context.memory.visible_triangles[id], i);
-    SampledTrianglePixels<Depth, kDepthTest, kColorWrite> pixels(context, draw, i, value,
-                                                                 immediate ? &color : nullptr, min_depth_key);
-    const BlockOffsets offsets(pixels.edges);
-    for_each_block(pixels.edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], pixels);
-    if (kColorWrite == ColorWrite::constant || immediate)
-      context.counts.shaded_pixels += count_of(pixels.visible);
-    else if constexpr (kColorWrite == ColorWrite::deferred)
-      any_visible |= !hn::AllTrue(kInt, hn::Eq(pixels.visible, hn::Zero(kInt)));
-  }
-  return any_visible;
-}
-
-template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
-void draw_group_msaa(TileContext& context, std::uint32_t draw_number) {
-  TileWorkspace::Memory& memory = context.memory;
-  TriangleGroup& g = memory.group;
-  set_up_edges(g, context.tile_x, context.tile_y, context.rect, sample_reach(context.samples));
-  if (g.mask == 0) return;
-  if constexpr (kHasDepth<Depth>) set_up_depth(g, context.frame.depth_format, context.tile_x, context.tile_y);
-  bool any_wide = false;
-  for (int i = 0; i < g.count; ++i) any_wide |= g.needs_edges64[i] != 0;
-  if (any_wide) return draw_fragments_msaa(context, draw_number);
-  const std::size_t first_id = memory.visible_triangles.size();
-  if constexpr (kColorWrite == ColorWrite::deferred) {
-    set_up_weights(g);
-    for_each_triangle(g.mask, [&](int i) TESSERA_LOOP_BODY {
-      fill_shaded_triangle(memory.visible_triangles.emplace_back(), context, draw_number, i,
-                           is_back(context, context.frame.draws[draw_number], i));
-    });
-  }
-  const bool any_visible = draw_edges32_msaa<Depth, kDepthTest, kColorWrite>(
-      context, draw_number, static_cast<std::uint32_t>(first_id));
-  if constexpr (kColorWrite == ColorWrite::deferred) {
-    if (!any_visible) {
-      memory.visible_triangles.resize(first_id);
-    } else if (context.frame.shade_immediately) {
-      shade_whole_tile(context);
-    }
-  }
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera::detail
