@@ -22,7 +22,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Interpolated colours that are scaled to levels: three linear functions and the word's packing.
+/// Interpolated RGB in levels, with the half that rounds.
 struct GouraudColorEval {
   InterpolantLanes r, g, b;
   Int r_shift, g_shift;
@@ -30,7 +30,7 @@ struct GouraudColorEval {
   HWY_INLINE void set_up(const ShadedTriangle& t, int attribute, const ColorLayout& layout) {
     set_up(t.attributes[0] + attribute, t.attributes[1] + attribute, t.attributes[2] + attribute, layout);
   }
-  /// @param first  four floats can be read there, and at the others
+  /// @param first, second, third  colors of the vertices; four floats are readable at each
   HWY_INLINE void set_up(const float* first, const float* second, const float* third,
                          const ColorLayout& layout) {
 #if HWY_TARGET == HWY_SCALAR
@@ -57,17 +57,18 @@ struct GouraudColorEval {
   }
 };
 
-/// Colours of 0..1 for 8 bits each of red, green and blue, which are mixed by their alpha with what is
-/// stored: the steps of FragmentTriangle, of which those are left out that change no bit. What is kept within
-/// 0..1 at the vertices is within 0..1 between them, and a sum that rounds to above 1 is the highest level,
-/// too. Alpha that is not kept there has no way here: it is of pixels that are lit, or of alpha tests.
+/// RGB and alpha 0..1, blended with stored 8-bit RGB: source * alpha + stored * (1 - alpha). The same bits as
+/// FragmentTriangle without its clamps. They change nothing here: values that are clamped to 0..1 at the
+/// vertices stay within 0..1 between them, and a sum that rounds to above 1 still gives the highest level.
+/// Unclamped alpha, of lit pixels or for alpha tests, never comes here (choose_pixel_path()).
 struct BlendedColorEval {
   Interpolant c[4];  // r g b a
   InterpolantLanes lanes[4];
   Float low[4], high[4];
-  bool same_alpha = false;    // at all pixels
-  Float one_alpha, one_rest;  // that one, and what is left of what is stored
+  bool same_alpha = false;    // alpha is the same at all pixels:
+  Float one_alpha, one_rest;  // alpha and 1 - alpha, if so
 
+  /// @param flat  r g b a of a flat triangle; else null
   HWY_INLINE void set_up(const ShadedTriangle& t, const TileDraw& draw, const float* flat) {
     const int face = t.back ? 1 : 0;
     const float* const one = draw.source == ColorSource::constant ? draw.color[face].data() : flat;
@@ -79,7 +80,7 @@ struct BlendedColorEval {
     }
     same_alpha = c[3].to_second == 0 && c[3].to_third == 0;
   }
-  /// Before packed().
+  /// @pre of packed(), not of packed_pixel()
   HWY_INLINE void prepare_lanes() {
     for (int k = 0; k < 4; ++k) {
       lanes[k].set(c[k]);
@@ -102,7 +103,7 @@ struct BlendedColorEval {
     };
     return hn::Or(hn::Or(hn::ShiftLeft<16>(level(0)), hn::ShiftLeft<8>(level(1))), level(2));
   }
-  /// The same of one pixel.
+  /// packed() of one pixel, with the same bits.
   HWY_INLINE std::uint32_t packed_pixel(float b1, float b2, std::uint32_t stored) const {
     const auto at_pixel = [&](const Interpolant& k) {
       const float value = std::fma(b1, k.to_second, std::fma(b2, k.to_third, k.first)),
@@ -119,7 +120,7 @@ struct BlendedColorEval {
   }
 
  private:
-  /// interpolate_clamped(), of values that are no NaN.
+  /// interpolate_clamped() of numbers: no NaN.
   HWY_INLINE Float within(const Barycentric& at, int k) const {
     return lesser_of(greater_of(interpolate(at, lanes[k]), low[k]), high[k]);
   }
@@ -131,12 +132,12 @@ struct BlendedColorEval {
   }
 };
 
-/// Colours of a triangle that are interpolated at once, at the pixels' centres.
+/// RGB 0..1 at the pixels' centers, where pixels have several samples.
 struct MsaaColorEval {
   const ShadedTriangle* triangle = nullptr;
   const ColorLayout* layout = nullptr;
   Interpolant r, g, b;
-  Int to_center[3];  // from the edges that the blocks are found by
+  Int to_center[3];  // center's edges - dominating edges (MsaaTrianglePixels::edges)
 
   HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw, const ShadedTriangle& shaded,
                          int i) {
@@ -159,12 +160,12 @@ struct MsaaColorEval {
   }
 };
 
-/// Colours at the vertices of a group's triangles, as arrays.
+/// GouraudColorEval for vectors of pixels of several triangles: vertex colors as arrays over the group.
 struct SmallTriangleColorEval {
-  alignas(64) float component[3][3][kGroupSize];  // red, green and blue of each vertex
+  alignas(64) float component[3][3][kGroupSize];  // [vertex][r g b][triangle]
   int r_shift, g_shift;
 
-  /// @param triangles  those that have pixels, a bit each; what others get means nothing
+  /// @param triangles  those that have pixels, one bit each; others get undefined colors
   HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw, std::uint32_t triangles) {
     r_shift = context.frame.layout.r_shift();
     g_shift = context.frame.layout.g_shift();
@@ -183,7 +184,7 @@ struct SmallTriangleColorEval {
       }
     }
   }
-  /// GouraudColorEval::packed(), of pixels of several triangles.
+  /// As GouraudColorEval::packed().
   HWY_INLINE Int packed(const PickByTriangle& pick, Float b1, Float b2) const {
     const auto level = [&](int c) HWY_ATTR {
       const Float at_first = pick(component[0][c]);
@@ -203,7 +204,7 @@ struct SmallTriangleColorEval {
       to[c][first] = c0[c], to[c][first + 1] = c1[c], to[c][first + 2] = c2[c], to[c][first + 3] = c3[c];
   }
 #else
-  // Four rows of r g b and what follows: three columns. Four floats can be read from each.
+  // Transposes four rows of r g b and a fourth float that is dropped.
   static HWY_INLINE void set_up_four(const float* c0, const float* c1, const float* c2, const float* c3,
                                      float (&to)[3][kGroupSize], int first) {
     constexpr hn::CappedTag<float, 4> four;
@@ -221,7 +222,7 @@ struct SmallTriangleColorEval {
 #endif
 };
 
-/// Colours of an RGB buffer, interpolated along a line.
+/// RGB 0..1 along a line.
 struct LineColorEval {
   float first[3], change[3], max_level[3], rw[2];
   int shift[3];

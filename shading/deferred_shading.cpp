@@ -21,18 +21,18 @@ namespace HWY_NAMESPACE {
 inline constexpr int kBatchBlocks = kBatchPoints / kBlockPixels;
 static_assert(kBatchBlocks * kBlockPixels == kBatchPoints);
 
-/// Pixels of blocks that share a surface. Points of the batch that no triangle covers hold what was there
-/// before, any bits: nothing that is stored depends on them.
+/// Up to kBatchBlocks blocks with pixels of one surface; each has 16 points of the batch. Points that no
+/// triangle covers hold any bits: nothing that is stored depends on them.
 struct PixelBatch : BatchSurface {
   int blocks = 0;
-  int index[kBatchBlocks];  // of each block's first pixel in tile memory
+  int index[kBatchBlocks];  // of the block's first pixel in the tile
   int bx[kBatchBlocks], by[kBatchBlocks];
   std::uint32_t covered[kBatchBlocks];  // 16 bits
-  bool one_surface = false;             // all triangles that were collected are of one
+  bool one_surface = false;             // all collected triangles are of this surface
 #if HWY_TARGET == HWY_AVX3
-  // A block span: the visible pixels of one triangle in one block.
-  alignas(64) std::int32_t visibility[kBatchPoints];  // of the triangles seen at the blocks' pixels
-  int span_count = 0;  // block by block; each has a pixel at least, so that there is room for a whole block's
+  alignas(64) std::int32_t visibility[kBatchPoints];  // copy of the blocks' visibility buffer
+  // Block spans: the visible pixels of one triangle in one block. Each has a pixel at least, so they fit.
+  int span_count = 0;
   std::int32_t triangle[kBatchPoints], slot[kBatchPoints];
 #endif
 };
@@ -52,15 +52,13 @@ HWY_INLINE void gather_visible(const TileContext& context, PixelBatch& pixels, i
                          covered, first);
 }
 
-// Two ways of taking the pixels of the batch's surface into its next slot, both of which return which pixels
-// they are.
-//
-//   visibility      of the block's pixels
-//   pending  pixels whose triangles have not been taken
+// take_surface_pixels() takes the pixels of the batch's surface into the next slot and returns them. There
+// are two variants:
+//   visibility  the block's part of the visibility buffer
+//   pending     pixels that have not been taken
 #if HWY_TARGET == HWY_AVX3
-// The first pixels of a block's triangles are found side by side, and all that the batch shows of one
-// triangle in one block is gathered afterwards, one after the other: what cannot be foretold, how many
-// triangles a block has, does not hold up the long sums.
+// Two passes: find the distinct triangles of a block first, in lanes; gather attributes of all block spans
+// afterwards, so that mispredicted loop exits do not stall the FMA chains.
 
 template <int kCount>
 HWY_NOINLINE void gather_block_spans(const TileContext& context, PixelBatch& pixels) {
@@ -140,7 +138,7 @@ inline HWY_NOINLINE void shade_batch(TileContext& context, PixelBatch& pixels) {
   pixels.blocks = 0;
 }
 
-/// Makes what finding and gathering need of each triangle that was collected. Returns whether all are of one
+/// Prepares the collected triangles: their surface numbers and interpolants. Returns whether all are of one
 /// surface.
 HWY_INLINE bool prepare_triangles(const TileContext& context) {
   TileWorkspace::Memory& memory = context.memory;

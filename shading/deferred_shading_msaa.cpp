@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Bits of a block's pixels, or of a chunk's, for each sample: 16 bits of a word, four samples a word.
+/// Pixels of a block, or of a chunk, for each sample: 16 bits per sample, four samples per word.
 struct SampleMasks {
   std::uint64_t word[kMaxSamples / 4] = {};
 };
@@ -25,26 +25,26 @@ struct SampleMasks {
 constexpr SampleMasks broadcast_to_samples(std::uint32_t bits) {
   return {{0x0001000100010001u * bits, 0x0001000100010001u * bits}};
 }
-/// Those that any sample has.
+/// The union over the samples.
 constexpr std::uint32_t any_sample_mask(const SampleMasks& bits) {
   const std::uint64_t all = bits.word[0] | bits.word[1], folded = all | all >> 32;
   return static_cast<std::uint32_t>(folded | folded >> 16) & 0xffff;
 }
 static_assert(kMaxSamples == 8);
 
-/// What one triangle covers of one chunk of pixels. Its points stand side by side in the batch.
+/// The visible pixels of one triangle in one chunk. Their points are adjacent in the batch.
 struct SampledSpan {
-  int point;              // the first one, in the batch
-  int index;              // of the chunk's first pixel in tile memory
-  std::uint32_t covered;  // a bit a lane
-  SampleMasks visible;    // by which samples of these pixels
+  int point;              // first point in the batch
+  int index;              // of the chunk's first pixel in the tile
+  std::uint32_t covered;  // one bit per lane
+  SampleMasks visible;    // samples of these pixels
 };
 
-/// Points of one surface. A pixel has one for each triangle that its samples see: they are packed, since the
-/// places of a block's pixels would not do.
+/// Points of one surface. A pixel has one for each triangle that is visible at its samples, so points are
+/// packed and do not lie at the places of the block's pixels.
 struct SampledBatch : BatchSurface {
   int count = 0, span_count = 0;
-  SampledSpan spans[kBatchPoints];  // each has a point at least
+  SampledSpan spans[kBatchPoints];  // each has at least one point
 };
 
 /// Packed colors of the batch's points, in order.
@@ -60,7 +60,7 @@ HWY_INLINE void shade_points(TileContext& context, const SampledBatch& points, s
 
 inline HWY_NOINLINE void shade_sampled_batch(TileContext& context, SampledBatch& points) {
   if (points.count == 0) return;
-  alignas(64) std::int32_t packed[kBatchPoints + kLanes];  // the last ones are read along with others
+  alignas(64) std::int32_t packed[kBatchPoints + kLanes];  // padded: whole vectors are read
   shade_points(context, points, packed);
   const Int writable = splat(static_cast<std::int32_t>(context.frame.draws[points.draw].write_mask));
   for (int i = 0; i < points.span_count; ++i) {
@@ -77,7 +77,7 @@ inline HWY_NOINLINE void shade_sampled_batch(TileContext& context, SampledBatch&
   points.count = points.span_count = 0;
 }
 
-/// Texture coordinates of the points of one chunk.
+/// Adds the texture coordinates of the points of one chunk.
 inline HWY_NOINLINE void add_coordinates(const TileContext& context, SampledBatch& points,
                                          const ShadedTriangle& triangle, const Barycentric& at,
                                          std::uint32_t bits) {
@@ -88,8 +88,8 @@ inline HWY_NOINLINE void add_coordinates(const TileContext& context, SampledBatc
   });
 }
 
-/// Adds what samples see of one triangle in one block to the batch. Shades the batch whenever it is full.
-/// kCount: attributes in adjacent arrays without texture coordinates, where known; else 0.
+/// Adds the visible pixels of one triangle in one block to the batch, which is shaded whenever it is full.
+/// @param kCount  number of attributes, in adjacent arrays and without texture coordinates; 0: any
 template <int kCount>
 HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, const ShadedTriangle& triangle,
                                    int bx, int by, int index, const SampleMasks& visible) {
@@ -132,7 +132,7 @@ inline HWY_NOINLINE void add_points(TileContext& context, SampledBatch& points,
   }
 }
 
-/// The same at each sample.
+/// pixels_where() at each sample.
 template <int kSamples, class Predicate>
 HWY_INLINE SampleMasks samples_where(const TileContext& context, int index, Predicate predicate) {
   SampleMasks bits;
@@ -144,7 +144,7 @@ HWY_INLINE SampleMasks samples_where(const TileContext& context, int index, Pred
   return bits;
 }
 
-/// All samples of each pixel of a block wait for the same triangle, or for none.
+/// Whether all samples of each pixel of a block see the same triangle, or none.
 template <int kSamples>
 HWY_INLINE bool samples_agree(const TileContext& context, int index) {
   Int differing = hn::Zero(kInt);
@@ -158,7 +158,8 @@ HWY_INLINE bool samples_agree(const TileContext& context, int index) {
   return hn::AllTrue(kInt, hn::Eq(differing, hn::Zero(kInt)));
 }
 
-/// Adds one block to the batch. kSamples of them are looked at: one, where all agree. False if none waits.
+/// Adds one block to the batch. Returns false if no sample has a triangle.
+/// @param kSamples  samples to read: 1 if all agree
 template <int kSamples>
 HWY_INLINE bool add_block(TileContext& context, SampledBatch& points, int bx, int by, int index) {
   const auto id_at = [&](int word, std::uint64_t bits) {
@@ -171,7 +172,7 @@ HWY_INLINE bool add_block(TileContext& context, SampledBatch& points, int bx, in
   if (any_sample_mask(pending) == 0) return false;
   for (int leading = 0; leading < kWords; ++leading) {
     while (pending.word[leading] != 0) {
-      // All triangles of the surface that the first one belongs to, one after the other.
+      // All triangles of the first one's surface, in order.
       const ShadedTriangle& leader = context.memory.visible_triangles[id_at(leading, pending.word[leading])];
       if (!points.is_of(leader)) {
         shade_sampled_batch(context, points);
@@ -198,7 +199,6 @@ HWY_INLINE bool add_block(TileContext& context, SampledBatch& points, int bx, in
   return true;
 }
 
-/// Shades what was collected in the whole tile, and forgets it.
 template <int kSamples>
 HWY_NOINLINE void shade_visible_samples(TileContext& context) {
   SampledBatch points;

@@ -1,4 +1,4 @@
-// Triangles whose fragments go through more than the depth test: block by block, in order.
+// Triangles with fragment operations: blocks of fragments, in order.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/draw_fragments.cpp"
 #include "framebuffer/lanes.h"
@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Coverage and depth of a triangle's blocks.
+/// Functor for for_each_block(): coverage and depth of a triangle's blocks.
 struct FragmentBlocks {
   FragmentTriangle& fragments;
   FragmentDepth depth;
@@ -33,7 +33,7 @@ struct FragmentBlocks {
   }
 };
 
-/// The same where pixels have several samples, each with edges and depth of its own.
+/// The same with several samples, each with its edges and depth.
 struct SampledBlocks {
   FragmentTriangle& fragments;
   Edges32 edges[kMaxSamples];
@@ -86,8 +86,7 @@ HWY_INLINE void move_group(TriangleGroup& g, std::int32_t x, std::int32_t y) {
     }
 }
 
-/// Triangle i of a group that stands where its vertices are: what its pixels' centres see, inside of it or
-/// not.
+/// Fills the record of triangle i for the pixels' centers, whether they are inside or not.
 inline HWY_NOINLINE void fill_centered_triangle(ShadedTriangle& triangle, TileContext& context,
                                                 std::uint32_t draw_number, int i, bool back) {
   const TriangleGroup& g = context.memory.group;
@@ -99,14 +98,14 @@ inline HWY_NOINLINE void fill_centered_triangle(ShadedTriangle& triangle, TileCo
   store_edges64(triangle, context.memory, wide);
 }
 
-/// Edges and bounds that hold those of all samples.
+/// Dominating edges and bounds: they contain those of all samples.
 struct SampledBounds {
   Edges32 edges;
   int x0, y0, x1, y1;
   bool first = true;
   HWY_INLINE void include(const Edges32& of_sample, const TriangleGroup& g, int i) {
     for (int k = 0; k < 3; ++k) {
-      // An edge that a wide triangle's sample has dropped is dropped.
+      // An edge that any sample has dropped is dropped: the whole tile is inside of it there.
       const bool dropped = of_sample.a[k] == 0 && of_sample.b[k] == 0;
       if (first || dropped)
         edges.a[k] = of_sample.a[k], edges.b[k] = of_sample.b[k], edges.e[k] = of_sample.e[k];
@@ -119,6 +118,9 @@ struct SampledBounds {
     first = false;
   }
 };
+
+/// Edges of a sample's wide triangle that misses the tile: its own do not fit 32 bits.
+inline constexpr Edges32 kEmptyEdges{{0, 0, 0}, {0, 0, 0}, {-1, -1, -1}};
 
 void draw_fragments_msaa(TileContext& context, std::uint32_t draw_number) {
   TriangleGroup& center = context.memory.group;
@@ -149,9 +151,7 @@ void draw_fragments_msaa(TileContext& context, std::uint32_t draw_number) {
         if (g.needs_edges64[i] == 0 ||
             tile_edges64(g, i, context.tile_x, context.tile_y, context.tile_size, blocks.edges[s], wide))
           bounds.include(blocks.edges[s], g, i);
-        else
-          blocks.edges[s] = {
-              {0, 0, 0}, {0, 0, 0}, {-1, -1, -1}};  // outside of the tile; its edges do not fit 32 bits
+        else blocks.edges[s] = kEmptyEdges;
       }
       if (bounds.first) return;
       const BlockOffsets offsets(bounds.edges);

@@ -1,4 +1,4 @@
-// Bitmaps and images in a tile: blocks of fragments with one depth.
+// Bitmaps and images in a tile: blocks of fragments, all with the same depth.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/draw_pixel_rectangle.cpp"
 #include "framebuffer/lanes.h"
@@ -11,7 +11,6 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// A draw that is a bitmap or an image, in one tile.
 void draw_pixel_rectangle(TileContext& context, std::uint32_t draw_number) {
   const TileDraw& draw = context.frame.draws[draw_number];
   const PixelRectangle& texels = *draw.texels;
@@ -24,9 +23,7 @@ void draw_pixel_rectangle(TileContext& context, std::uint32_t draw_number) {
   fragments.packed_color = is_first_primitive ? 0 : draw.packed_color;
   alignas(64) float colors[4 * kBlockPixels];
   const bool has_colors =
-      texels.channels != 0 &&
-      ((draw.path.color_write == ColorWrite::evaluated && draw.source == ColorSource::texels) ||
-       fragments.ops.alpha_test);
+      texels.channels != 0 && (draw.path.color_write == ColorWrite::evaluated || fragments.ops.alpha_test);
   if (has_colors) fragments.block_colors = colors;
   fragments.begin_colors();
 
@@ -45,7 +42,7 @@ void draw_pixel_rectangle(TileContext& context, std::uint32_t draw_number) {
     for (int bx = rect.x0 & ~3; bx < rect.x1; bx += kBlockSize) {
       bool alike = true;
       for (int s = 1; s < apart; ++s) alike &= places[s].same_in_block(places[0], bx, by);
-      // Where samples of a pixel see different texels, each is a fragment of its own.
+      // If samples of a pixel see different texels, each sample is a fragment.
       for (int turn = 0; turn < (alike ? 1 : context.samples); ++turn) {
         const std::uint32_t bits = places[turn].covered(texels, bx, by);
         if (bits == 0) continue;

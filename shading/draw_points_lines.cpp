@@ -1,5 +1,5 @@
-// Points and lines in a tile. Few of their pixels share a block: each pixel's coverage and depth are found by
-// themselves. Plain colors are stored at once; all others go through FragmentTriangle, block by block.
+// Points and lines in a tile. Few of their pixels share a block, so coverage and depth are evaluated per
+// pixel. Plain colors are stored at once; all others go through FragmentTriangle, block by block.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/draw_points_lines.cpp"
 #include "framebuffer/lanes.h"
@@ -15,12 +15,13 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Of edges and corners of polygons.
+/// Depth offset of an edge or a corner of a polygon.
 HWY_INLINE double depth_offset_of(const TileContext& context, const TileDraw& draw, int i) {
   return draw.depth_offsets != nullptr ? draw.depth_offsets[context.memory.source[i]] : 0.0;
 }
 
-/// As shading sees it: weights from exact "edges", as those of a wide triangle whose third vertex has none.
+/// Fills the record for shading: exact "edges" weigh the two ends as those of a wide triangle whose third
+/// vertex has no weight.
 HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileContext& context, std::uint32_t draw, int i,
                                           bool back) {
   const TriangleGroup& g = context.memory.group;
@@ -51,7 +52,7 @@ HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileContext& contex
   store_edges64(t, context.memory, wide);
 }
 
-/// Words that are just stored, where that is all there is to do.
+/// Stores packed colors under the depth test and the write mask.
 class PackedPixelWriter {
  public:
   HWY_INLINE PackedPixelWriter(TileContext& context, const TileDraw& draw)
@@ -69,8 +70,8 @@ class PackedPixelWriter {
     color ^= (color ^ packed_color) & draw_.write_mask;
     ++context_.counts.shaded_pixels;
   }
-  /// Pixels none of which is there twice; of those that are not `inside` nothing is seen. Neither that nor
-  /// whether a depth passes could be foretold: nothing branches on it.
+  /// Stores one vector of distinct pixels. Pixels that are not `inside` or fail the depth test are written to
+  /// kDiscardPixel: a branch on them would be mispredicted.
   HWY_INLINE void store(Int x, Int y, LaneMask inside, Int keys, Int packed) const {
     const Int index = hn::IfThenElse(inside, context_.pixel_indices(x, y), splat(kDiscardPixel));
     Int passed = hn::VecFromMask(kInt, inside);
@@ -103,7 +104,7 @@ class PackedPixelWriter {
   bool uses_depth_;
 };
 
-/// Element i of a plain draw of points, each of one packed color.
+/// Stores a point of one packed color.
 HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext& context,
                              const TileDraw& draw, int i, const PointShape& point, bool back) {
   const std::int32_t key = pixels.uses_depth()
@@ -114,7 +115,7 @@ HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext&
   point.for_each([&](int x, int y) HWY_ATTR { pixels.store_one(x, y, key, packed_color); });
 }
 
-/// And of lines, of one packed color or with colors along them.
+/// Stores a line of one packed color, or with colors interpolated along it.
 HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext& context,
                              const TileDraw& draw, int i, const LineShape& line, bool back) {
   const LineValues values(context, i, 1, depth_offset_of(context, draw, i));
@@ -131,8 +132,7 @@ HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext&
   });
 }
 
-/// The blocks in which element i of the group covers pixels, as bits, go through what fragments of triangles
-/// go through.
+/// Draws the fragments of the blocks that element i of the group covers.
 inline HWY_NOINLINE void draw_covered_blocks(BlockCoverage& bits, std::uint32_t draw_number, int i,
                                              const LineValues& values, bool back) {
   TileContext& context = bits.context;

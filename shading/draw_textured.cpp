@@ -16,21 +16,26 @@ namespace tessera::detail {
 namespace HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR  // one lane gains nothing: choose_pixel_path() takes another path
 
-/// One triangle's way through the blocks of a tile.
+/// Functor for for_each_block(): one triangle.
 template <TexelFilter kFilter>
 struct TexturedBlocks {
   TileContext& context;
   const TileDraw& draw;
   const ShadedTriangle& triangle;
-  bool uses_depth, is_rgb8, modulates, replaces_color, stores_full, full;
+  bool uses_depth;
+  bool is_rgb8;
+  bool modulates;
+  bool replaces_color;
+  bool stores_full;  // full blocks without any test or mask
+  bool full;         // argument of draw_block(): the compiler would clone the function for a constant
   FragmentDepth depth;
   TextureCoordinates coordinates;
   Interpolant color[3];
-  Int visible = hn::Zero(kInt);  // minus the number of pixels that passed, in each lane
-  std::uint64_t blocks = 0;      // drawn as a whole
+  Int visible = hn::Zero(kInt);  // minus the number of visible pixels, per lane
+  std::uint64_t blocks = 0;      // stored as a whole
 
-  /// Full blocks wait for company: the steps of one wait for each other. Loads of nearest texels are most of
-  /// their steps.
+  /// Full blocks are drawn several at a time, because the steps of one block depend on each other. With
+  /// nearest texels most of the time goes into loads, and one block at a time suffices.
   static constexpr int kBlocksPerGroup =
       kFilter == TexelFilter::nearest || kFilter == TexelFilter::any ? 1 : 4;
   struct FullBlock {
@@ -74,10 +79,10 @@ struct TexturedBlocks {
       }
       return;
     }
-    full = kFull;  // no argument: the compiler would make a copy of draw_block for each
+    full = kFull;
     draw_block(bx, by, edges);
   }
-  /// Those that no more company comes for.
+  /// Draws the full blocks that are left.
   HWY_INLINE void finish() {
     full = true;
     for (int i = 0; i < pending_count; ++i) draw_block(pending[i].bx, pending[i].by, pending[i].edges);
@@ -161,8 +166,8 @@ struct TexturedBlocks {
   }
 };
 
-/// Of full blocks side by side, whose nearest texels are stored as they are, what they have in common stays
-/// in registers: copies, since the compiler must read again what a stored word might have changed.
+/// Rows of full blocks whose nearest texels are stored unchanged. What the blocks share is copied into
+/// locals: the compiler would reload members after every store.
 struct NearestRows {
   TexturedBlocks<TexelFilter::nearest>& blocks;
 

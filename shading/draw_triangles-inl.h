@@ -1,6 +1,6 @@
-// Draws a group of set-up triangles into a tile: coverage by size, depth, and colour at once or later. One
-// function for each combination of depth format, depth test and way of colouring that can occur; a draw picks
-// one and knows no other.
+// Draws a group of triangles into a tile: small ones pixel by pixel, medium ones as boxes of blocks, all
+// others by rows of blocks. There is one function per combination of depth type, depth test path and color
+// write. Each draw_triangles_*.cpp compiles those of one depth type.
 #if defined(TESSERA_SHADING_DRAW_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_DRAW_TRIANGLES_INL_H_
 #undef TESSERA_SHADING_DRAW_TRIANGLES_INL_H_
@@ -23,7 +23,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Everything but pixels of triangle i of the group.
+/// Sets up depth and color of triangle i of the group.
 template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
 HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kDepthTest, kColorWrite>& pixels, TileContext& context,
                               const TileDraw& draw, int i, bool back) {
@@ -40,7 +40,7 @@ HWY_INLINE void set_up_pixels(TrianglePixels<Depth, kDepthTest, kColorWrite>& pi
     pixels.packed_color = static_cast<std::int32_t>(packed_color_of(context, draw, i, back));
 }
 
-/// The small triangles that were added, whose colours are interpolated.
+/// Draws the small triangles that were added, with interpolated colors, and empties `pixels`.
 template <class Depth, DepthTestPath kDepthTest>
 HWY_NOINLINE void draw_small_triangles(TileContext& context, const TileDraw& draw,
                                        SmallTrianglePixels& pixels) {
@@ -188,7 +188,6 @@ void draw_triangles(TileContext& context, std::uint32_t draw_number) {
   }
 }
 
-/// The function for a path, of all those with one type of depth and one path of the depth test.
 template <class Depth, DepthTestPath kDepthTest>
 DrawGroupFunction triangles_function_by_color(ColorWrite color_write) {
   switch (color_write) {

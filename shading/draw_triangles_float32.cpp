@@ -1,4 +1,4 @@
-// Triangles with floating-point depth.
+// draw_triangles() with floating-point depth.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/draw_triangles_float32.cpp"
 #include "framebuffer/lanes.h"

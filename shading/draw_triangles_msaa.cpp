@@ -12,9 +12,9 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// A group without wide triangles: one walk through the blocks of a triangle for all samples. True if one of
-/// them waits for its colour, by numbers from `id` on.
-/// @pre set up, with the samples' reach
+/// Draws a group without wide triangles: one walk through the blocks of a triangle serves all samples.
+/// Returns whether the visibility buffer got any of the triangles, whose numbers start at `id`.
+/// @pre the group is set up with the samples' reach
 template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
 HWY_INLINE bool draw_narrow_triangles(TileContext& context, std::uint32_t draw_number, std::uint32_t id) {
   const TriangleGroup& g = context.memory.group;

@@ -1,4 +1,4 @@
-// Triangles without depth.
+// draw_triangles() without depth.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/draw_triangles_no_depth.cpp"
 #include "framebuffer/lanes.h"

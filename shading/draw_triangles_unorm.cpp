@@ -1,4 +1,4 @@
-// Triangles with depth of 16 or 24 bits.
+// draw_triangles() with unorm depth of 16 or 24 bits.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/draw_triangles_unorm.cpp"
 #include "framebuffer/lanes.h"

@@ -20,16 +20,15 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Blocks in which nothing of a triangle can be visible are passed over. Only `less_write` does so, and keeps
-/// the blocks' hiz_max exact.
+/// Whether hierarchical z culls blocks. Only `less_write` uses it, and keeps the blocks' hiz_max exact.
 template <class Depth, DepthTestPath kDepthTest>
 inline constexpr bool kUsesHiz = kHasDepth<Depth>&& kDepthTest == DepthTestPath::less_write;
 
-/// A block holds nothing that is farther than `min_depth_key`.
+/// Whether no sample of the block is farther than `min_depth_key`.
 HWY_INLINE bool hiz_culls(const TileContext& context, std::int32_t min_depth_key, int bx, int by) {
   return min_depth_key >= context.memory.samples->hiz_max[context.block_index(bx, by) / kBlockPixels];
 }
-/// Nor do all blocks of these bounds.
+/// Whether this holds for all blocks of the bounds.
 HWY_INLINE bool hiz_culls(const TileContext& context, std::int32_t min_depth_key, int x0, int y0, int x1,
                           int y1) {
   for (int by = y0 & ~3; by <= y1; by += 4)
@@ -38,22 +37,22 @@ HWY_INLINE bool hiz_culls(const TileContext& context, std::int32_t min_depth_key
   return true;
 }
 
-/// One narrow triangle's way through the blocks of a tile, at all samples of a pixel.
+/// Functor for for_each_block(): one narrow triangle at all samples of each pixel.
 template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
 struct MsaaTrianglePixels {
   TileContext& context;
   const TileDraw& draw;
   Depth depth;
   typename Depth::Anchor anchors[kMaxSamples];
-  Edges32 edges;              // those that the blocks are found by: never below any sample's
-  Int below[kMaxSamples][3];  // what a sample's edges are more than those
-  std::int32_t *stored_depth[kMaxSamples],
-      *stored[kMaxSamples];    // of the sample: depth; the packed colors or triangle ids that it writes
-  Int value;                   // the packed color, or the triangle id
-  const MsaaColorEval* color;  // deferred: packed colors in place of triangle numbers; or null
+  Edges32 edges;              // dominating edges, never below any sample's: they find the blocks
+  Int below[kMaxSamples][3];  // sample's edges - dominating edges: 0 or less
+  std::int32_t* stored_depth[kMaxSamples];
+  std::int32_t* stored[kMaxSamples];  // colors or visibility buffer of each sample
+  Int value;                          // packed color, or number of the triangle
+  const MsaaColorEval* color;         // ColorWrite::deferred: null, or packed colors in place of the number
   Int writable, depth_writable;
   std::int32_t min_depth_key;    // no sample of the triangle has a smaller depth key
-  Int visible = hn::Zero(kInt);  // minus the number of pixels that passed at any sample, in each lane
+  Int visible = hn::Zero(kInt);  // minus the number of pixels visible at any sample, per lane
 
   HWY_INLINE MsaaTrianglePixels(TileContext& tile_context, const TileDraw& tile_draw, int i,
                                 std::uint32_t new_value, const MsaaColorEval* interpolated,
@@ -87,7 +86,7 @@ struct MsaaTrianglePixels {
                                  context.tile_y);
   }
 
-  // Whether the block is full is known of the edges that dominate, not of each sample's.
+  // That a block is full holds for the dominating edges, not for every sample.
   template <bool>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
     if (kUsesHiz<Depth, kDepthTest> && hiz_culls(context, min_depth_key, bx, by)) return;
@@ -95,13 +94,13 @@ struct MsaaTrianglePixels {
     else draw_block<kMaxSamples>(bx, by, block_edges);
   }
 
-  // Once for all: it is long.
+  // Not inlined: it is long.
   template <int kSamples>
   HWY_NOINLINE void draw_block(int bx, int by, const BlockEdges& block_edges) {
     const int block = context.block_index(bx, by);
     const auto step = depth.step_to(bx, by);
     const bool needs_scissor =
-        context.needs_scissor;  // in registers: stores to the tile might change members
+        context.needs_scissor;  // in a register: members would be reloaded after every store
     const Int writes_depth = depth_writable;
     Int hiz_max = splat(std::numeric_limits<std::int32_t>::min());
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {

@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// One element for each of kGroupSize triangles, picked by their numbers in the lanes.
+/// Holds the triangles of the lanes; calls return array[triangle] of each.
 struct PickByTriangle {
 #if HWY_TARGET == HWY_SCALAR
   Int triangle;
@@ -23,7 +23,7 @@ struct PickByTriangle {
 #else
   using Indices = decltype(hn::IndicesFromVec(kInt, Int()));
   Indices place;
-  hn::Mask<IntTag> is_second;  // with 8 lanes half of the array is another vector
+  hn::Mask<IntTag> is_second;  // 8 lanes: the triangle lies in the array's second vector
   HWY_INLINE explicit PickByTriangle(Int triangle)
       : place(hn::IndicesFromVec(kInt, hn::And(triangle, splat(kLanes - 1)))),
         is_second(hn::Gt(triangle, splat(kLanes - 1))) {}

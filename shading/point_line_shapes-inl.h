@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// The centre of a pixel of the tile.
+/// Center of a pixel of the tile, raster space.
 HWY_INLINE LinePoint center_of(const TileContext& context, int x, int y) {
   return {(context.tile_x + x) * kSubpixelScale + kHalfPixel,
           (context.tile_y + y) * kSubpixelScale + kHalfPixel};
@@ -31,7 +31,7 @@ HWY_INLINE PixelRect in_tile(const TileContext& context, const PixelRect& rect) 
                    context.rect);
 }
 
-/// Blocks with bits of the pixels that are covered, in each sample.
+/// Covered pixels of the touched blocks, for each sample.
 struct BlockCoverage {
   TileContext& context;
   TouchedBlocks& blocks;
@@ -45,7 +45,7 @@ struct BlockCoverage {
       blocks.bits[std::countr_zero(left)][block] |= static_cast<std::uint16_t>(bit);
   }
 
-  /// Runs them through `fragments`, and forgets them.
+  /// Draws them as fragments, and clears them.
   HWY_INLINE void draw(FragmentTriangle& fragments, const LineValues& values) {
     const int columns = context.tile_size >> 2;
     for (int n = 0; n < blocks.count; ++n) {
@@ -77,7 +77,7 @@ struct BlockCoverage {
   }
 };
 
-/// The samples of `shape` in the pixels of a rectangle.
+/// Adds the samples that `shape` covers in a rectangle of pixels.
 template <class Shape>
 HWY_INLINE void cover_samples(BlockCoverage& bits, const Shape& shape, const PixelRect& pixels) {
   const TileContext& context = bits.context;
@@ -96,7 +96,7 @@ struct PointShape {
   LinePoint at;
   float size;
 
-  /// Calls pixel(x, y) for each, of one sample.
+  /// Calls pixel(x, y) for each covered pixel. @pre one sample
   template <class Pixel>
   HWY_INLINE void for_each(const Pixel& pixel) const {
     const PixelRect square = in_tile(context, point_square(at, rounded_size(size)));
@@ -116,7 +116,7 @@ struct LineShape {
   int i;                   // of the line
   float width;
 
-  /// Calls pixels(x, y, inside), of one sample.
+  /// Calls pixels(x, y, inside) for vectors of covered pixels. @pre one sample
   template <class Pixels>
   HWY_INLINE void for_each_vector(const Pixels& pixels) const {
     const PixelRect& r = context.rect;

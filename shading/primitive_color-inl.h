@@ -18,7 +18,7 @@ HWY_INLINE std::size_t provoking_vertex(const TileDraw& draw, std::uint32_t elem
   return draw.indices ? draw.indices[corner] : corner;
 }
 
-/// The word of triangle i of the group, where it has one.
+/// Packed color of element i of the group. @pre ColorSource::constant or a packed one
 HWY_INLINE std::uint32_t packed_color_of(const TileContext& context, const TileDraw& draw, int i, bool back) {
   if (draw.source == ColorSource::per_triangle_packed)
     return draw.packed_colors[back ? 1 : 0][context.memory.source[i]];
@@ -26,7 +26,7 @@ HWY_INLINE std::uint32_t packed_color_of(const TileContext& context, const TileD
   return draw.packed_colors[back ? 1 : 0][provoking_vertex(draw, context.memory.source[i])];
 }
 
-/// The colour of a flat triangle: its own, or that of its provoking vertex.
+/// Color of a flat triangle, r g b a or an index: its own, or that of its provoking vertex.
 HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, bool back) {
   const int face = back ? 1 : 0;
   if (draw.face_colors[face] != nullptr) return draw.face_colors[face] + std::size_t{source} * 4;

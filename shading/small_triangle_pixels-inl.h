@@ -1,5 +1,5 @@
-// Pixels of triangles so small that each has but a few: those of a whole group stand side by side in lanes,
-// and are stored one after the other.
+// Pixels of small triangles with interpolated colors: those of a whole group are evaluated in lanes, and
+// tested and stored one by one, in order.
 #if defined(TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_
 #undef TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_
@@ -21,16 +21,15 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Pixels of a group's small triangles, in the order in which they are drawn, and their colours.
+/// Pixels of a group's small triangles in drawing order, and their colors.
 struct SmallTrianglePixels {
   static constexpr int kCapacity = kGroupSize * kBlockPixels;
   int count = 0;
-  alignas(64) std::int32_t
-      place[kCapacity + kLanes];  // the triangle's number in the group, and y and x in the tile: 8 bits each
-  alignas(64) std::int32_t index[kCapacity + kLanes];   // of the pixel
-  alignas(64) std::int32_t key[kCapacity + kLanes];     // of its depth, where kHasKeys
-  alignas(64) std::int32_t packed[kCapacity + kLanes];  // of its colour
-  std::uint32_t triangles = 0;                          // that have pixels
+  alignas(64) std::int32_t place[kCapacity + kLanes];   // triangle << 16 | y << 8 | x, tile-relative
+  alignas(64) std::int32_t index[kCapacity + kLanes];   // of the pixel in the tile
+  alignas(64) std::int32_t key[kCapacity + kLanes];     // depth key, if kHasKeys
+  alignas(64) std::int32_t packed[kCapacity + kLanes];  // color
+  std::uint32_t triangles = 0;                          // triangles with pixels, one bit each
   static_assert(kMaxTileSize <= 256);
   static HWY_INLINE Int x_of(Int at) { return hn::And(at, splat(255)); }
   HWY_INLINE int triangle(int p) const { return place[p] >> 16; }
@@ -50,7 +49,8 @@ struct SmallTrianglePixels {
     }
 #endif
   }
-  /// Words at barycentric coordinates as barycentric_from_edges() has them. @pre set_up_weights
+  /// Evaluates the colors, with the barycentric coordinates of barycentric_from_edges(). @pre
+  /// set_up_weights()
   HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw) {
     const TriangleGroup& g = context.memory.group;
     SmallTriangleColorEval colors;
@@ -77,10 +77,10 @@ struct SmallTrianglePixels {
       hn::Store(colors.packed(pick, w[1], w[2]), kInt, packed + first);
     }
   }
-  /// Whether keys come in lanes: of a depth format that they do for, and where products of 64 bits do.
+  /// Whether depth keys are computed in lanes: needs products of 64 bits.
   template <class Depth>
   static constexpr bool kHasKeys = HWY_TARGET == HWY_AVX3&& std::is_same_v<Depth, UnormDepth>;
-  /// As UnormDepth::key() has them. @pre set_up
+  /// As UnormDepth::key(). @pre set_up()
   HWY_INLINE void set_up_keys([[maybe_unused]] const TriangleGroup& g, [[maybe_unused]] DepthFormat kind) {
 #if HWY_TARGET == HWY_AVX3
     const int shift = kind == DepthFormat::unorm16 ? 16 : 8;

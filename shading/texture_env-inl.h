@@ -1,4 +1,4 @@
-// Colours of a chunk of pixels under their texels. Twin: texture_env_reference() in texture.h.
+// The texture environment on a chunk of pixels. Twin: texture_env_reference() in texture.h.
 #if defined(TESSERA_SHADING_TEXTURE_ENV_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXTURE_ENV_INL_H_
 #undef TESSERA_SHADING_TEXTURE_ENV_INL_H_
@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// The most common function, without alpha.
+/// TextureEnv::modulate without alpha, the most common function.
 HWY_INLINE Colors modulated(const Colors& f, const Colors& t) {
   return {{hn::Mul(f.c[0], t.c[0]), hn::Mul(f.c[1], t.c[1]), hn::Mul(f.c[2], t.c[2]), f.c[3]}};
 }

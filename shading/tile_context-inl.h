@@ -22,10 +22,10 @@ namespace HWY_NAMESPACE {
 struct TileContext {
   const TileFrame& frame;
   TileWorkspace::Memory& memory;
-  std::uint32_t* const color;     // memory.color, which stores cannot change
+  std::uint32_t* const color;     // memory.color as a constant, so that stores cannot change it
   int tile_x, tile_y, tile_size;  // pixels
-  PixelRect rect;                 // of the current draw, tile-relative
-  bool needs_scissor = false;     // the rectangle's edges cross blocks
+  PixelRect rect;                 // where the current draw may change pixels, tile-relative
+  bool needs_scissor = false;     // the edges of `rect` cut through blocks
   TileCounts counts;
   int samples = 1;
   TileAttachments sample[kMaxSamples];
@@ -41,7 +41,7 @@ struct TileContext {
   }
 };
 
-/// The sum of lanes of minus how many.
+/// Minus the sum of the lanes.
 HWY_INLINE std::uint64_t count_of(Int negative) {
   alignas(64) std::int32_t lanes[kLanes];
   hn::Store(negative, kInt, lanes);
@@ -51,12 +51,12 @@ HWY_INLINE std::uint64_t count_of(Int negative) {
 }
 
 inline constexpr std::int32_t kMaxDepthKey = std::numeric_limits<std::int32_t>::max();
-/// What is known of all blocks of a tile with several samples: none of their depth keys is greater.
+/// Sets hierarchical z of all blocks. @pre several samples
 HWY_INLINE void reset_hiz(TileContext& context, std::int32_t key) {
   std::fill_n(context.memory.samples->hiz_max, context.tile_size * context.tile_size / kBlockPixels, key);
 }
 
-/// Lanes of a chunk inside the draw's rectangle.
+/// Lanes of a chunk inside the rectangle.
 HWY_INLINE auto scissor_mask(const PixelRect& rect, int bx, int by, int chunk) {
   const Int x = hn::Add(splat(bx), block_columns(chunk)), y = hn::Add(splat(by), block_rows(chunk));
   return hn::And(hn::And(hn::Gt(x, splat(rect.x0 - 1)), hn::Gt(splat(rect.x1), x)),
@@ -76,17 +76,17 @@ template <class Tag, class Mask>
 HWY_INLINE void store_where(Mask mask, hn::Vec<Tag> value, Tag tag, hn::TFromD<Tag>* to) {
 #if HWY_TARGET == HWY_AVX3
   hn::BlendedStore(value, mask, tag, to);
-#else  // where masked stores are slow on some processors
+#else  // masked stores are slow on some processors
   hn::Store(hn::IfThenElse(mask, value, hn::Load(tag, to)), tag, to);
 #endif
 }
-/// As store_packed(), where all bits are writable.
+/// store_packed() with all bits writable.
 template <class Mask>
 HWY_INLINE void store_packed_all_bits(std::uint32_t* color, Int packed, Mask mask) {
   store_where(mask, packed, kInt, reinterpret_cast<std::int32_t*>(color));
 }
 
-/// Whether triangle i of the group shows its back: by its own area, or as its polygon does.
+/// Whether triangle i of the group is back-facing: by its polygon, or by its area.
 HWY_INLINE bool is_back(const TileContext& context, const TileDraw& draw, int i) {
   if (draw.facing != nullptr) return draw.facing[context.memory.source[i]] == Facing::back;
   return !is_front(context.memory.group.signed_area[i], draw.front_is_clockwise);

@@ -3,7 +3,7 @@
 namespace tessera::detail {
 
 TileWorkspace::TileWorkspace() : memory_(std::make_unique<Memory>()) {
-  // A group is added before the next look at the limit. Rendering a tile allocates nothing.
+  // Rendering a tile allocates nothing.
   memory_->visible_triangles.reserve(kVisibleTriangleCapacity);
   memory_->edges64.reserve(kVisibleTriangleCapacity);
   allocate_colors(1);

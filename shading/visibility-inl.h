@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// The pixels of a block whose triangles' numbers compare so.
+/// Pixels of a block whose triangle numbers satisfy `predicate`, 16 bits.
 template <class Predicate>
 HWY_INLINE std::uint32_t pixels_where(const std::int32_t* visibility, Predicate predicate) {
   std::uint32_t bits = 0;
