@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "framebuffer/format.h"
 #include "raster/double_lanes-inl.h"
 #include "raster/lanes-inl.h"
 #include "raster/triangle_setup.h"

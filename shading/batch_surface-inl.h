@@ -1,4 +1,4 @@
-// What the points of a batch share, and the way of a triangle's attributes into it.
+// What the points of a batch share, and how attributes of triangles are gathered into it.
 #if defined(TESSERA_SHADING_BATCH_SURFACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_BATCH_SURFACE_INL_H_
 #undef TESSERA_SHADING_BATCH_SURFACE_INL_H_
@@ -15,63 +15,79 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// What the points of a batch share: one draw, one face.
+/// What the points of a batch share, one face of one draw: where attributes go, and the steps from there to
+/// colors.
 struct BatchSurface {
   std::uint32_t draw = 0xffffffffu;
   bool back = false;
-  // Which attributes of its triangles' vertices go into which arrays of the batch.
-  int first_attribute = 0, attribute_count = 0;
-  float* target[kMaxAttributes];
-  bool adjacent = false;                 // the arrays follow each other
-  bool clamps_to_range = false;          // of the triangles' vertices
-  const DrawTexture* texture = nullptr;  // or none
-  TextureCoordinates coordinates;        // of the triangle last gathered, of textures with levels
+
+  int first_attribute = 0, attribute_count = 0;  // of the vertices' records
+  float* target[kMaxAttributes];                 // per attribute: its array in the batch
+  bool adjacent = false;                         // these arrays follow each other
+  bool clamps_to_range = false;                  // attributes are clamped to the range of the vertices
+  bool gathers_coordinates = false;              // texture coordinates are gathered with the attributes
+  TextureCoordinates coordinates;                // of the triangle last gathered
+
+  bool is_constant = false;                  // colors are the draw's
+  bool interpolates_colors = false;          // attributes are colors 0..1 or levels, no indices
+  const LightingProgram* program = nullptr;  // makes colors of the attributes; null: they are colors
+  bool clamps_colors = false;                // extrapolated colors are clamped to 0..1
+  const DrawTexture* texture = nullptr;      // null: none
+  enum class Packing : std::uint8_t { levels, indices, unit } packing = Packing::unit;
 
   HWY_INLINE bool is_of(const ShadedTriangle& triangle) const {
     return draw == triangle.draw && back == triangle.back;
   }
-  /// No other surface has it: draws' numbers have 31 bits (kDrawMarker).
+  /// Unique per surface: numbers of draws have 31 bits (kDrawMarker).
   HWY_INLINE std::int32_t surface_number() const {
     return static_cast<std::int32_t>(2 * draw + (back ? 1 : 0));
   }
 };
 
-/// The texture of a draw's faces: where indices are drawn, none has a say.
+/// The texture of a draw's faces. Indices are not textured.
 HWY_INLINE const DrawTexture* texture_of(const TileDraw& draw, bool back) {
   return draw.index[back ? 1 : 0] ? nullptr : draw.texture;
 }
 
-/// Whether a draw's attributes stay within those of a triangle's vertices: where pixels' centres may be
-/// outside; and colours, unless they keep away from the borders of levels already (scaled_colors). What lies
-/// beyond a line's end is as equation 3.6 has it.
+/// Whether attributes are clamped to the range of a triangle's vertices: with several samples, because
+/// pixels' centers may lie outside; and colors that do not keep away from the borders of levels
+/// (scaled_colors). Lines extrapolate beyond their ends [GL 2.1, equation 3.6].
 HWY_INLINE bool attributes_clamp_to_range(const TileContext& context, const TileDraw& draw) {
   return draw.topology != Topology::lines &&
          (context.samples > 1 || (draw.source == ColorSource::interpolated && !draw.scaled_colors));
 }
 
-/// Makes the batch one of another surface. @pre it is empty
+/// Makes the batch one of the triangle's surface. @pre the batch is empty
 HWY_INLINE void begin_surface(const TileContext& context, BatchSurface& surface,
                               const ShadedTriangle& triangle) {
   const TileDraw& draw = context.frame.draws[triangle.draw];
-  const bool per_pixel = draw.source == ColorSource::per_pixel, back = triangle.back;
+  const int face = triangle.back ? 1 : 0;
+  const bool is_lit = draw.source == ColorSource::per_pixel, is_index = draw.index[face];
   surface.draw = triangle.draw;
-  surface.back = back;
-  surface.first_attribute = per_pixel ? draw.first_attribute : draw.color_attribute[back ? 1 : 0];
-  surface.attribute_count = per_pixel                              ? draw.attribute_count
-                            : draw.source == ColorSource::constant ? 0
-                            : draw.index[back ? 1 : 0]             ? 1
-                                                                   : 3;
+  surface.back = triangle.back;
+  surface.is_constant = draw.source == ColorSource::constant;
+  surface.program = is_lit ? draw.programs[face] : nullptr;
+  surface.first_attribute = is_lit ? draw.first_attribute : draw.color_attribute[face];
+  surface.attribute_count = is_index ? 1 : 3;
+  if (is_lit) surface.attribute_count = draw.attribute_count;
+  if (surface.is_constant) surface.attribute_count = 0;
   surface.adjacent = true;
   for (int j = 0; j < surface.attribute_count; ++j) {
-    surface.target[j] = context.memory.batch.field[per_pixel ? draw.fields[j] : kColorR + j];
+    surface.target[j] = context.memory.batch.field[is_lit ? draw.fields[j] : kColorR + j];
     surface.adjacent &= surface.target[j] == surface.target[0] + j * kBatchPoints;
   }
   surface.clamps_to_range = attributes_clamp_to_range(context, draw);
-  surface.texture = texture_of(draw, back);
+  surface.interpolates_colors = draw.source == ColorSource::interpolated && !is_index;
+  surface.clamps_colors = surface.interpolates_colors && draw.topology == Topology::lines;
+  surface.texture = texture_of(draw, triangle.back);
+  surface.gathers_coordinates = surface.texture != nullptr && surface.texture->levels != nullptr;
   surface.coordinates.triangle = nullptr;
+  surface.packing = BatchSurface::Packing::unit;
+  if (!is_lit && draw.scaled_colors) surface.packing = BatchSurface::Packing::levels;
+  if (is_index) surface.packing = BatchSurface::Packing::indices;
 }
 
-/// Of a texture with levels: what its coordinates in a triangle are made of.
+/// The texture coordinates of a triangle. @pre the texture has levels
 HWY_INLINE const TextureCoordinates& coordinates_in(const TileContext& context, BatchSurface& surface,
                                                     const ShadedTriangle& triangle) {
   if (surface.coordinates.triangle != &triangle)
@@ -79,9 +95,6 @@ HWY_INLINE const TextureCoordinates& coordinates_in(const TileContext& context, 
                                context.frame.draws[surface.draw].topology == Topology::lines,
                                context.samples);
   return surface.coordinates;
-}
-HWY_INLINE bool has_coordinates(const BatchSurface& surface) {
-  return surface.texture != nullptr && surface.texture->levels != nullptr;
 }
 
 /// Texture coordinates of the chunk of points from `point` on, in the lanes of `mask`.
@@ -94,13 +107,12 @@ inline HWY_NOINLINE void gather_coordinates(const TileContext& context, BatchSur
   });
 }
 
-/// How many attributes a surface has, where they stand in adjacent arrays and are not kept within a range,
-/// where there are no texture coordinates, and where the number is one that gather_block_span() is made for;
-/// else 0.
+/// Number of attributes, if gather_block_span() has a specialization for it: 1, 3 or 6 in adjacent arrays,
+/// neither clamped to a range nor with texture coordinates. Else 0.
 HWY_INLINE int known_count(const BatchSurface& surface) {
   const int count = surface.attribute_count;
   return (count == 1 || count == 3 || count == 6) && surface.adjacent && !surface.clamps_to_range &&
-                 !has_coordinates(surface)
+                 !surface.gathers_coordinates
              ? count
              : 0;
 }
@@ -115,10 +127,12 @@ HWY_INLINE void with_known_count(const BatchSurface& surface, const Run& body) {
   }
 }
 
-/// Adds what is seen of one triangle in one block to the points from `first` on; what other lanes hold stays.
+/// Gathers the attributes of one triangle's visible pixels in one block into the points from `first` on;
+/// other lanes keep what they hold.
 /// @param kCount  known_count(), or 0 for any
 /// @param values  TriangleInterpolants or InterpolantArrays of the surface's attributes
-/// @param at      Barycentric of a chunk
+/// @param at       at(chunk): barycentric coordinates of a chunk
+/// @param covered  visible pixels, 16 bits
 template <int kCount, class Values, class At>
 HWY_INLINE void gather_values(const TileContext& context, BatchSurface& surface,
                               const ShadedTriangle& triangle, const Values& values, const At& at,
@@ -139,11 +153,12 @@ HWY_INLINE void gather_values(const TileContext& context, BatchSurface& surface,
       store_where(hn::RebindMask(kFloat, mask), value, kFloat,
                   (kCount > 0 ? adjacent + j * kBatchPoints : surface.target[j]) + point);
     }
-    if (kCount == 0 && has_coordinates(surface))
+    if (kCount == 0 && surface.gathers_coordinates)
       gather_coordinates(context, surface, triangle, weights, mask, point);
   }
 }
-/// Compiled once: few triangles are wide, but points and lines all are.
+/// gather_values() of a wide triangle. Compiled once: few triangles are wide, though all points and lines
+/// are.
 inline HWY_NOINLINE void gather_edges64(const TileContext& context, BatchSurface& surface,
                                         const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
                                         int first) {

@@ -1,7 +1,6 @@
-// Triangles whose blocks are a few boxes: as many blocks as there are lanes, four beside each other. What
-// each block of a box needs comes about side by side, and all that the triangle is made of stays in registers
-// while its blocks are drawn. Twin: TrianglePixels, which draws the same pixels by any test and of any size,
-// with one lane or more.
+// Triangles that fit a few boxes. A box has as many blocks as there are lanes, in rows of four; lanes are
+// blocks while a box is set up, and the triangle stays in registers while its blocks are drawn. Twin:
+// TrianglePixels, which draws the same pixels for any test, size and number of lanes.
 #if defined(TESSERA_SHADING_BOX_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_BOX_PIXELS_INL_H_
 #undef TESSERA_SHADING_BOX_PIXELS_INL_H_
@@ -15,40 +14,40 @@
 #include "framebuffer/check.h"
 #include "raster/coverage-inl.h"
 #include "raster/depth-inl.h"
+#include "shading/color_eval-inl.h"
 #include "shading/interpolate-inl.h"
-#include "shading/pixel_paths-inl.h"
+#include "shading/no_depth-inl.h"
 #include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Which draws have them, where no rectangle cuts through blocks.
+/// Whether draws use boxes. @pre the draw's rectangle does not cut through blocks
 template <DepthTestPath kDepthTest>
 inline constexpr bool kHasBoxes = kLanes > 1 && kDepthTest == DepthTestPath::less_write;
 
-/// What is known of a group's triangles before one of them is drawn: so early that the ways that drawing them
-/// takes are foretold in time.
+/// Box data of a group's triangles, computed before any is drawn, so that the branch predictor sees the
+/// chosen path early.
 struct BoxGroup {
-  /// So many beside, and so many below each other: beyond that most blocks are full, and rows of those are
-  /// faster. With few registers more than one is no gain.
+  /// Maximum number of boxes per axis. Larger triangles consist mostly of full blocks, for which the row path
+  /// is faster. With 16 vector registers (AVX2) more than one box gains nothing.
   static constexpr int kMaxBoxes = kLanes == 16 ? 3 : 1;
-  std::uint32_t triangles = 0;                // those in boxes, a bit each
-  std::uint32_t singles = 0;                  // and those of them in one
-  alignas(64) std::int32_t to_block[kLanes];  // from the index of a box's first pixel to that of each block's
-  alignas(64) std::int32_t x[kGroupSize], y[kGroupSize];           // the first box's first pixel
-  alignas(64) std::int32_t columns[kGroupSize], rows[kGroupSize];  // of blocks
-  alignas(64) std::int32_t e[3][kGroupSize];                       // the edges there
+  std::uint32_t triangles = 0;                            // triangles in boxes, one bit each
+  std::uint32_t singles = 0;                              // those of them in a single box
+  alignas(64) std::int32_t to_block[kLanes];              // pixel index of each block relative to the box
+  alignas(64) std::int32_t x[kGroupSize], y[kGroupSize];  // first pixel of the first box
+  alignas(64) std::int32_t columns[kGroupSize], rows[kGroupSize];  // number of blocks
+  alignas(64) std::int32_t e[3][kGroupSize];                       // the edges at (x, y)
   alignas(64) std::int32_t
-      to_highest[3][kGroupSize];  // and from a block's first pixel to where an edge is highest
-  // Of triangles in one box: the edges at a block's pixels, from its first; those at the blocks' first
-  // pixels; which blocks the triangle may cover.
-  alignas(64) std::int32_t offset[kGroupSize][3][kBlockPixels];
-  alignas(64) std::int32_t start[kGroupSize][3][kLanes];
-  std::uint32_t touched[kGroupSize];
+      to_highest[3][kGroupSize];  // maximum of an edge in a block - value at its first pixel
+  // Triangles in a single box:
+  alignas(64) std::int32_t offset[kGroupSize][3][kBlockPixels];  // edges at a block's pixels - at its first
+  alignas(64) std::int32_t start[kGroupSize][3][kLanes];         // edges at the blocks' first pixels
+  std::uint32_t touched[kGroupSize];                             // blocks that the triangle may cover
 
-  /// Compiled once for all depths and colours.
-  /// @param among  triangles that are drawn by blocks
+  /// Not inlined: compiled once for all depths and colors.
+  /// @param among  triangles that are drawn by blocks, one bit each
   HWY_NOINLINE void set_up(const TileContext& context, const TriangleGroup& g, std::uint32_t among) {
     const auto at = [](const std::int32_t* array, int first)
                         HWY_ATTR { return hn::Load(kInt, array + first); };
@@ -119,20 +118,20 @@ struct BoxGroup {
   }
 };
 
-/// A triangle in boxes, of a draw that nothing but the test `less` stops, and that its rectangle does not
-/// cut.
+/// One triangle in boxes. @pre DepthTestPath::less_write, and the draw's rectangle does not cut through
+/// blocks
 template <class Depth, ColorWrite kColorWrite>
 struct BoxPixels {
   TileContext& context;
   const BoxGroup& boxes;
-  const int i;  // which of the group
+  const int i;  // of the group
   Depth depth;
   WeightLanes weights;
   GouraudColorEval color;
-  std::int32_t value;  // the colour's word, or the number of a triangle that is collected
+  std::int32_t value;  // packed color, or number of the collected triangle
   Int writable;
-  Int offset[3][kChunksPerBlock];  // of the edges at a block's pixels
-  std::uint32_t visible = 0;       // how many pixels, or whether any that wait for their colour
+  Int offset[3][kChunksPerBlock];  // edges at a block's pixels - at its first
+  std::uint32_t visible = 0;       // number of visible pixels; deferred: nonzero if any
 
   HWY_INLINE BoxPixels(TileContext& tile_context, const TileDraw& draw, const BoxGroup& group_boxes,
                        int triangle, std::int32_t word_or_number, bool back)
@@ -178,7 +177,8 @@ struct BoxPixels {
   }
 
  private:
-  /// Those blocks of the box at (x, y) whose bit is set. @param start  the edges at their first pixels
+  /// Draws the touched blocks of the box at (x, y).
+  /// @param start  the edges at the blocks' first pixels
   HWY_INLINE void draw_blocks(std::uint32_t touched, int x, int y, const std::int32_t (&start)[3][kLanes]) {
     const auto box_depth = depth.box(x, y);
     for (const int index = context.block_index(x, y); touched != 0; touched &= touched - 1) {
@@ -211,7 +211,7 @@ struct BoxPixels {
       visible |= bits;
     } else {
       if (kColorWrite == ColorWrite::interpolated && bits == 0)
-        return;  // packed colors are stored without a look at the mask: a branch on it could not be foretold
+        return;  // cheap colors are stored without this test: the branch would be mispredicted
       visible += static_cast<std::uint32_t>(std::popcount(bits));
       Int packed = splat(value);
       if constexpr (kColorWrite == ColorWrite::interpolated)
@@ -229,9 +229,9 @@ HWY_NOINLINE std::uint32_t draw_in_boxes_of(TileContext& context, const TileDraw
   else pixels.draw_boxes();
   return pixels.visible;
 }
-/// Draws triangle i of the group, one of those in boxes.
-/// @param value  the colour's word, or the number of a triangle that is collected
-/// @return how many pixels were visible; if they wait for their colour, whether any was
+/// Draws triangle i of the group. @pre it is in boxes
+/// @param value  packed color, or number of the collected triangle
+/// @return the number of visible pixels; deferred: nonzero if any
 template <class Depth, ColorWrite kColorWrite>
 HWY_INLINE std::uint32_t draw_in_boxes(TileContext& context, const TileDraw& draw, const BoxGroup& boxes,
                                        int i, std::int32_t value, bool back) {

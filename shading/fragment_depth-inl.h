@@ -1,5 +1,5 @@
-// Depth keys for draws with operations: of any format, with an offset or without. What they are is asked once
-// a block, so that the long code of fragments is there once for all of them.
+// Depth keys of blocks for draws with operations: any format, with or without an offset. The format is
+// decided at run time, once per block, so that the long code of fragments is compiled once for all.
 #if defined(TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_
 #undef TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_
@@ -16,16 +16,14 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE bool has_depth(const TileFrame& frame, const TileDraw& draw) {
-  return draw.uses_depth && frame.depth_format != DepthFormat::none;
-}
-
 class FragmentDepth {
  public:
-  /// Of triangle i of a group whose depth is set up.
+  /// @pre the group's depth is set up
+  /// @param i       triangle of the group
+  /// @param source  its number in the draw
   HWY_NOINLINE void set_up(const TileFrame& frame, const TileDraw& draw, const TriangleGroup& g, int i,
                            std::uint32_t source, int tile_x, int tile_y) {
-    if (!has_depth(frame, draw)) return;
+    if (!draw.path.uses_depth()) return;
     const bool has_offset =
         draw.depth_offsets != nullptr || draw.offset_factor != 0 || draw.offset_units != 0;
     const auto move = [&](auto& depth) HWY_ATTR {
@@ -45,7 +43,7 @@ class FragmentDepth {
       unorm_.prepare_blocks();
     }
   }
-  /// Those of the block's pixels; nothing without depth.
+  /// Writes the keys of the block's pixels; nothing without depth.
   HWY_NOINLINE void block_keys(int bx, int by, Int* keys) const {
     switch (format_) {
       case Format::none: return;
@@ -57,7 +55,7 @@ class FragmentDepth {
   }
 
  private:
-  // offset_unorm: 32 bits always, whose keys are found in the same way, by an offset of 0.
+  // offset_unorm also serves all unorm32 depth, with an offset of 0.
   enum class Format : std::uint8_t { none, unorm, offset_unorm, float32, offset_float32 };
 
   template <class Depth>

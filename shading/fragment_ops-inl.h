@@ -1,4 +1,4 @@
-// Fragments of one chunk of pixels on their way into the frame buffer. Twin: fragment_ops_reference.h.
+// Fragment operations on one chunk of pixels. Twin: fragment_ops_reference.h.
 #if defined(TESSERA_SHADING_FRAGMENT_OPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_FRAGMENT_OPS_INL_H_
 #undef TESSERA_SHADING_FRAGMENT_OPS_INL_H_
@@ -32,7 +32,7 @@ HWY_INLINE auto compare_lanes(Vector a, Compare op, Vector b) {
   }
 }
 
-/// What passes the stencil test.
+/// Lanes that pass the stencil test.
 HWY_INLINE LaneMask stencil_passes(const StencilTestConstants& stencil, Int stored) {
   const auto first = splat(static_cast<std::int32_t>(stencil.passing.first)),
              count = splat(static_cast<std::int32_t>(stencil.passing.count));
@@ -45,8 +45,10 @@ HWY_INLINE Int stencil_op_lanes(const StencilOpConstants& step, Int stored) {
   return hn::Min(hn::Max(value, splat(step.min_value)), splat(step.max_value));
 }
 
-/// The stencil values after: of what failed the test, of what passed it and failed the depth test, of what
-/// passed both.
+/// The new stencil values.
+/// @param failed   lanes that failed the stencil test
+/// @param zfailed  lanes that passed it and failed the depth test
+/// @param zpassed  lanes that passed both
 HWY_INLINE Int stencil_result(const StencilTestConstants& stencil, Int stored, LaneMask failed,
                               LaneMask zfailed, LaneMask zpassed) {
   Int value = stored;
@@ -62,7 +64,7 @@ struct Colors {
 };
 
 HWY_INLINE Float clamped_unit(Float c) {
-  // In the order in which a NaN becomes 0.
+  // In this order a NaN becomes 0.
   return lesser_of(greater_of(c, hn::Zero(kFloat)), splat(1.0f));
 }
 
@@ -148,7 +150,7 @@ HWY_INLINE Int pack_colors(const ColorLayout& layout, const Colors& colors, Floa
   return hn::Or(packed, level(colors.c[2], layout.b_bits));
 }
 
-/// The same for 8 bits each and halves that are rounded up.
+/// pack_colors() for 8 bits each, rounded to nearest.
 HWY_INLINE Int pack_rgb8(const Colors& colors) {
   const auto level = [&](int c)
                          HWY_ATTR { return truncate(mul_add(colors.c[c], splat(255.0f), splat(0.5f))); };

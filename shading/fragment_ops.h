@@ -1,5 +1,5 @@
-// What happens to a fragment on its way into the frame buffer: alpha test, stencil, depth, blend, dither,
-// logic operation, masks, in this order [GL 2.1, 4.1]. Draws that have none of it never come here.
+// Fragment operations besides the depth test, in order: alpha test, stencil, depth, blend, dither, logic
+// operation, masks [GL 2.1, 4.1].
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace tessera::detail {
 /// Passes where (reference & mask) func (stored & mask).
 struct StencilSide {
   Compare func = Compare::always;
-  std::int32_t reference = 0;  ///< cut to the buffer's bits
+  std::int32_t reference = 0;  ///< clamped to the buffer's range
   std::int32_t mask = 0xff;
   StencilOp fail = StencilOp::keep, zfail = StencilOp::keep, zpass = StencilOp::keep;
   std::int32_t write_mask = 0xff;
@@ -23,7 +23,7 @@ struct StencilSide {
   }
 };
 
-inline constexpr int kDitherSize = 8;  ///< patterns repeat after so many pixels at most
+inline constexpr int kDitherSize = 8;  ///< largest period of a dither pattern, pixels
 
 struct FragmentOps {
   bool alpha_test = false;
@@ -41,15 +41,16 @@ struct FragmentOps {
   std::array<float, 4> constant{};  ///< 0..1
 
   bool dither = false;
-  /// What is added before a level is cut off, by raster row and column; without dither 0.5 everywhere.
+  /// Rounding offset added before truncation to a level, by raster row and column; without dither 0.5.
   float threshold[kDitherSize][kDitherSize] = {};
-  float palette_spread = 0;  ///< index buffers: how far (threshold - 0.5) moves the colour that is looked up
+  /// Index buffers: the color is moved by (threshold - 0.5) * palette_spread before the palette search.
+  float palette_spread = 0;
 
   LogicOp logic = LogicOp::copy;
 };
 
-/// The thresholds of ordered dither of size n (2, 4, 8; 1: none): M_1 = [0], M_2n = [[4 M_n, 4 M_n + 2], [4
-/// M_n + 3, 4 M_n + 1]], rows from the window's lower edge, (M[y mod n][x mod n] + 0.5) / n^2.
+/// Sets the thresholds of ordered dither of size n (2, 4, 8; 1: none): M_1 = [0], M_2n = [[4 M_n, 4 M_n + 2],
+/// [4 M_n + 3, 4 M_n + 1]], rows from the window's lower edge, (M[y mod n][x mod n] + 0.5) / n^2.
 void set_dither(FragmentOps& ops, int n, int frame_height);
 
 }  // namespace tessera::detail

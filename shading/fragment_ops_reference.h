@@ -1,4 +1,4 @@
-// One fragment at a time: the specification of fragment_ops-inl.h, step by step the same.
+// Scalar twin of fragment_ops-inl.h and its specification: one fragment at a time, the same steps.
 #pragma once
 
 #include <algorithm>
@@ -47,14 +47,14 @@ constexpr std::uint32_t logic_op_reference(LogicOp logic, std::uint32_t s, std::
   }
 }
 
-/// A level of b bits as a component; of no bits: 1.
+/// A level of b bits as a component 0..1; 1 if there are no bits.
 inline float component_of(std::uint32_t level, int bits) {
   return bits == 0 ? 1.0f
                    : static_cast<float>(static_cast<std::int32_t>(level)) *
                          (1.0f / static_cast<float>((1 << bits) - 1));
 }
 
-/// The colour that a stored word stands for.
+/// Unpacks a stored color.
 inline Rgba unpack_color_reference(const ColorLayout& layout, std::uint32_t word) {
   const auto field = [&](int shift, int bits) {
     return component_of(word >> shift & ((1u << bits) - 1), bits);

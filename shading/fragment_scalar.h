@@ -1,5 +1,4 @@
-// One fragment's comparison and one colour's word, where a kernel has no lanes to fill: clears, small
-// triangles, accumulation.
+// Comparison and packing of a single fragment, for code without lanes: clears, small triangles, accumulation.
 #pragma once
 
 #include <array>
@@ -29,7 +28,7 @@ using Rgba = std::array<float, 4>;
 
 inline float clamp_unit(float c) { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; }
 
-/// The word of a clamped colour: each component floor(c (2^b - 1) + t). RGB and luminance layouts.
+/// Packs a clamped color: each component is floor(c (2^bits - 1) + t). RGB and luminance layouts.
 inline std::uint32_t pack_color(const ColorLayout& layout, const Rgba& c, float t) {
   const auto level = [&](float x, int bits) {
     return static_cast<std::uint32_t>(

@@ -1,5 +1,4 @@
-// The way from the entries of a tile's bin to groups of points, lines or triangles, and those to the function
-// that draws them.
+// Collects the entries of a tile's bins into groups of points, lines or triangles, and draws the groups.
 #if defined(TESSERA_SHADING_GROUP_BUILDER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_GROUP_BUILDER_INL_H_
 #undef TESSERA_SHADING_GROUP_BUILDER_INL_H_
@@ -10,26 +9,25 @@
 #include <algorithm>
 
 #include "shading/draw_dispatch-inl.h"
-#include "shading/pixel_rectangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// What passes the test may be farther than what was stored.
+/// Whether a fragment that passes may be farther than the stored depth.
 constexpr bool may_raise_depth(Compare test) {
   return test == Compare::greater || test == Compare::notequal || test == Compare::gequal ||
          test == Compare::always;
 }
 
-/// Collects elements of one draw until a group is full.
+/// Collects elements of one draw, and draws them whenever a group is full.
 struct GroupBuilder {
   TileContext& context;
   std::uint32_t draw_number = 0;
   const TileDraw* draw = nullptr;
-  DrawGroupFunction draw_group_function = nullptr;
-  // Points and lines are so small that cache misses of their vertices would be most of the work: while a
-  // group is drawn, those of the next come.
+  DrawGroupFunction draw_elements = nullptr;
+  // Points and lines are so small that cache misses of their vertices would dominate: the vertices of the
+  // next group are prefetched while one is drawn.
   std::uint32_t prefetched[2 * kGroupSize];
   int prefetched_count = 0;
   std::uint32_t pending[kGroupSize];  // triangles
@@ -39,16 +37,17 @@ struct GroupBuilder {
   HWY_INLINE void begin_draw(std::uint32_t number) {
     const TileFrame& frame = context.frame;
     const TileDraw& next = frame.draws[number];
-    // Pixels that wait for their colour keep it only from draws that write the same planes.
+    // Pixels in the visibility buffer may only be overwritten by deferred draws that write the same planes.
     if (draw != nullptr && !context.memory.visible_triangles.empty() &&
         (next.write_mask != draw->write_mask || !next.deferred))
       shade_whole_tile(context);
     draw_number = number;
     draw = &next;
-    if (next.texels == nullptr) draw_group_function = select_draw_group(frame, next);
+    draw_elements = draw_group_function(next.path);
     if (context.samples > 1 && next.depth_write && may_raise_depth(next.depth_test))
       reset_hiz(context, kMaxDepthKey);
-    // Exact at the draw's own rectangle; the frame buffer's edges may be overdrawn, nobody reads there.
+    // Exact at the draw's rectangle; pixels beyond the frame buffer's edges may be drawn, they are never
+    // read.
     context.rect = intersect({next.rect.x0 - context.tile_x, next.rect.y0 - context.tile_y,
                               next.rect.x1 - context.tile_x, next.rect.y1 - context.tile_y},
                              {0, 0, context.tile_size, context.tile_size});
@@ -68,8 +67,8 @@ struct GroupBuilder {
     load_pending();
     draw_all();
   }
-  /// Those of the entries that stand before the first one that is no triangle of the mesh's own, but no more
-  /// than fill a group: how many were added.
+  /// Adds leading entries that are triangles of the mesh, at most until the group is full. Returns their
+  /// number.
   HWY_INLINE std::uint32_t add_mesh_triangles(const std::uint32_t* entries, std::uint32_t count) {
     if (draw == nullptr || draw->topology != Topology::triangles) return 0;
     const auto room = static_cast<std::uint32_t>(kGroupSize - context.memory.group.count - pending_count),
@@ -84,9 +83,9 @@ struct GroupBuilder {
     }
     return added;
   }
-  /// What was added needs these bins no longer, but for pieces' attributes.
+  /// Loads from the bins what was added; only attributes of derived primitives are still read from there.
   HWY_INLINE void release_bins(const Bins& bins) { draw_prefetched(bins, 0); }
-  /// Draws what was added; `bins` held the last of it.
+  /// Draws what was added; `bins` holds the last of it.
   HWY_INLINE void flush(const Bins& bins) {
     release_bins(bins);
     finish();
@@ -115,7 +114,7 @@ struct GroupBuilder {
     if (draw->source == ColorSource::per_vertex_packed) __builtin_prefetch(draw->packed_colors[0] + vertex);
     else __builtin_prefetch(draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride));
   }
-  /// All but the last `kept` of them.
+  /// Loads all prefetched elements but the last `kept`.
   HWY_NOINLINE void draw_prefetched(const Bins& bins, int kept) {
     const int drawn = prefetched_count - kept;
     if (drawn <= 0) return;
@@ -129,11 +128,11 @@ struct GroupBuilder {
   HWY_INLINE void draw_all() {
     TriangleGroup& g = context.memory.group;
     if (g.count == 0) return;
-    // Lanes without a triangle repeat the first one and have no bit in the mask.
+    // Unused lanes repeat the first triangle; they have no bit in the mask.
     for (int i = g.count; i < kGroupSize; ++i)
       for (int k = 0; k < 3; ++k)
         g.x[k][i] = g.x[k][0], g.y[k][i] = g.y[k][0], g.z[k][i] = g.z[k][0], g.rw[k][i] = g.rw[k][0];
-    draw_group_function(context, draw_number);
+    draw_elements(context, draw_number);
     g.count = 0;
     if (context.memory.visible_triangles.size() >= kMaxVisibleTriangles) shade_whole_tile(context);
   }
@@ -148,7 +147,7 @@ struct GroupBuilder {
     for (; loaded < pending_count; ++loaded) load_mesh_primitive<3>(pending[loaded]);
     pending_count = 0;
   }
-  /// What of a draw says where its vertices are. A copy: it stays in registers while groups are written.
+  /// The arrays of a draw. A copy stays in registers while groups are written.
   struct DrawArrays {
     const std::uint32_t* indices;
     const WindowVertex* vertices;
@@ -181,7 +180,7 @@ struct GroupBuilder {
     for (int t = 0; t < 4; ++t) load_vertex(i + t, k, *v[t]);
   }
 #else
-  // Four rows of x y z rw become columns.
+  // Transposes four rows of x y z rw.
   HWY_INLINE void load_four_vertices(int i, int k, const WindowVertex* const (&v)[4]) {
     constexpr hn::CappedTag<std::int32_t, 4> four;
     constexpr hn::Repartition<std::int64_t, decltype(four)> pairs;
@@ -214,7 +213,6 @@ struct GroupBuilder {
     }
     context.memory.source[i] = derived.source;
   }
-  /// One of the mesh's own.
   template <int kCorners>
   HWY_INLINE void load_mesh_primitive(std::uint32_t id) {
     const int i = context.memory.group.count++;

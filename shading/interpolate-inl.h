@@ -18,11 +18,11 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Coordinates of vertices 1 and 2; vertex 0 has the rest, so that an attribute is a0 + b1 (a1 - a0) + b2 (a2
-/// - a0), and one that is the same at all three stays exactly that.
+/// Coordinates of vertices 1 and 2; vertex 0 has the rest. An attribute is a0 + b1 (a1 - a0) + b2 (a2 - a0),
+/// which keeps a constant attribute exact.
 struct Barycentric {
   Float b1, b2;
-  Float inverse;  // of the weights' sum
+  Float inverse;  // 1 / sum of the weights
 };
 
 HWY_INLINE Barycentric from_weights(Float w0, Float w1, Float w2, bool affine) {
@@ -31,7 +31,7 @@ HWY_INLINE Barycentric from_weights(Float w0, Float w1, Float w2, bool affine) {
   return {hn::Mul(w1, inverse), hn::Mul(w2, inverse), inverse};
 }
 
-/// The weights of a narrow triangle's vertices in all lanes.
+/// Weights of a narrow triangle's vertices, constants broadcast to all lanes.
 struct WeightLanes {
   Float scale[3], shift[3];
   bool affine;
@@ -45,7 +45,7 @@ struct WeightLanes {
     affine = g.affine[i] != 0;
     for (int k = 0; k < 3; ++k) set(k, g.scale[k][i], g.shift[k][i]);
   }
-  /// From the edges' values at the pixels.
+  /// @param e0, e1, e2  the edges at the pixels
   HWY_INLINE Barycentric at(Int e0, Int e1, Int e2) const {
     const auto weight = [&](int k, Int e)
                             HWY_ATTR { return mul_add(hn::ConvertTo(kFloat, e), scale[k], shift[k]); };
@@ -65,7 +65,7 @@ HWY_INLINE Barycentric barycentric_from_edges(const ShadedTriangle& t, Int e0, I
   return weights.at(e0, e1, e2);
 }
 
-/// The exact edges of a narrow triangle at the pixels of a block. Chunks are whole rows, or single pixels.
+/// Exact edges of a narrow triangle at the pixels of a block. A chunk is whole rows, or one pixel.
 struct BlockEdges32 {
   const ShadedTriangle& triangle;
   Int first[3];  // at the first chunk
@@ -89,7 +89,7 @@ inline HWY_NOINLINE Barycentric barycentric_edges64(const ShadedTriangle& t, con
                                                     int by, int chunk) {
   alignas(64) float w[3][kLanes];
   for (int k = 0; k < 3; ++k) {
-    const double start = edges64.e[k] + edges64.a[k] * bx + edges64.b[k] * by;  // exact, as all of it
+    const double start = edges64.e[k] + edges64.a[k] * bx + edges64.b[k] * by;  // all exact
     for (int l = 0; l < kLanes; ++l) {
       const int p = chunk * kLanes + l;
       w[k][l] = static_cast<float>(start + edges64.a[k] * kBlockColumn[p] + edges64.b[k] * kBlockRow[p]) *
@@ -98,8 +98,8 @@ inline HWY_NOINLINE Barycentric barycentric_edges64(const ShadedTriangle& t, con
   }
   const Barycentric found =
       from_weights(hn::Load(kFloat, w[0]), hn::Load(kFloat, w[1]), hn::Load(kFloat, w[2]), t.affine);
-  // Beyond a line's end the weights' sum may be 0: no value is the right one there, so the first vertex's,
-  // which is the one of constants.
+  // Beyond a line's end the sum of the weights may be 0. The first vertex's value is used then, which keeps
+  // constants.
   const auto known = hn::And(hn::IsFinite(found.b1), hn::IsFinite(found.b2));
   return {hn::IfThenElseZero(known, found.b1), hn::IfThenElseZero(known, found.b2),
           hn::IfThenElseZero(known, found.inverse)};
@@ -111,12 +111,12 @@ HWY_INLINE Barycentric barycentric(const ShadedTriangle& t, const Edges64* edges
                                          : barycentric_edges64(t, edges64[t.edges64_index], bx, by, chunk);
 }
 
-/// One attribute at the three vertices, and what it is kept within.
+/// One attribute at the three vertices, and its range.
 struct Interpolant {
   float first, to_second, to_third;
   float low = -std::numeric_limits<float>::infinity(), high = std::numeric_limits<float>::infinity();
 };
-/// `clamps_to_range`: within the vertices' own.
+/// @param clamps_to_range  sets the range to that of the vertices
 HWY_INLINE Interpolant make_interpolant(const ShadedTriangle& t, int attribute,
                                         bool clamps_to_range = false) {
   const float a = t.attributes[0][attribute], b = t.attributes[1][attribute], c = t.attributes[2][attribute];
@@ -129,7 +129,7 @@ HWY_INLINE Interpolant make_interpolant(const ShadedTriangle& t, int attribute,
 HWY_INLINE Float interpolate(const Barycentric& b, const Interpolant& c) {
   return mul_add(b.b1, splat(c.to_second), mul_add(b.b2, splat(c.to_third), splat(c.first)));
 }
-/// Interpolant in all lanes, for triangles of many pixels.
+/// Interpolant broadcast to all lanes, for triangles of many pixels.
 struct InterpolantLanes {
   Float first, to_second, to_third;
   HWY_INLINE void set(const Interpolant& c) {
@@ -138,7 +138,7 @@ struct InterpolantLanes {
     to_third = splat(c.to_third);
   }
 };
-/// And what it is kept within.
+/// The same with its range.
 struct ClampedInterpolantLanes {
   InterpolantLanes interpolant;
   Float low, high;
@@ -151,8 +151,8 @@ struct ClampedInterpolantLanes {
 HWY_INLINE Float interpolate(const Barycentric& b, const InterpolantLanes& c) {
   return mul_add(b.b1, c.to_second, mul_add(b.b2, c.to_third, c.first));
 }
-/// Sums may round to a hair beyond the vertices, and with several samples a pixel's centre may lie outside of
-/// the triangle.
+/// Clamped to the range: sums may round to slightly beyond it, and with several samples a pixel's center may
+/// lie outside the triangle.
 HWY_INLINE Float interpolate_clamped(const Barycentric& b, const ClampedInterpolantLanes& c) {
   return lesser_of(greater_of(interpolate(b, c.interpolant), c.low), c.high);
 }
@@ -162,8 +162,7 @@ HWY_INLINE Float interpolate_clamped(const Barycentric& b, const Interpolant& c)
   return interpolate_clamped(b, lanes);
 }
 
-/// Keeps attributes from `attribute` on: as many as there is room for; what is read beyond the surface's own
-/// means nothing.
+/// Stores kCapacity attributes from `attribute` on; those beyond the surface's are undefined.
 HWY_INLINE void store_interpolants(const ShadedTriangle& t, int attribute,
                                    TriangleInterpolants& interpolants) {
   static_assert(TriangleInterpolants::kCapacity <= kAttributePadding);
@@ -180,8 +179,7 @@ HWY_INLINE Float interpolate(const Barycentric& b, const TriangleInterpolants& c
   return interpolate(b, Interpolant{c.first[j], c.to_second[j], c.to_third[j]});
 }
 
-/// Several attributes from `attribute` on, whole vectors at a time: what is read beyond `count` means
-/// nothing.
+/// Several attributes from `attribute` on, whole vectors at a time; those beyond `count` are undefined.
 struct InterpolantArrays {
   alignas(64) float first[kAttributePadding], to_second[kAttributePadding], to_third[kAttributePadding];
   HWY_INLINE InterpolantArrays(const ShadedTriangle& t, int attribute, int count) {

@@ -1,6 +1,6 @@
 // The scalar twin of interpolate-inl.h and of the weights' setup, and their specification: one pixel of one
-// triangle, its exact edges in 128-bit integers, the floats in the kernel's order. Within a triangle the
-// weights' sum is never 0, as a line's may be.
+// triangle, its exact edges in 128-bit integers, the floats in the kernel's order. Unlike a line's, the sum
+// of a triangle's weights is never 0.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ inline BarycentricReference barycentric_reference(const WindowVertex (&v)[3], in
     if (wide) {
       weight[k] = static_cast<float>(static_cast<double>(edge)) * unit;
     } else {
-      // Narrow edges are kept in units of 256, rounded down; what is lost is the same at every pixel.
+      // Narrow edges are stored in units of 256, rounded down; the remainder is the same at every pixel.
       const auto whole =
           static_cast<std::int64_t>((edge - (exact.edge[k].is_top_left ? 0 : 1)) >> kSubpixelBits);
       const auto rest = static_cast<std::int64_t>(edge - (static_cast<Exact>(whole) << kSubpixelBits));

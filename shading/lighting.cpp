@@ -1,4 +1,4 @@
-// Kernels of the lighting equation: stages over a batch of points, one of each for every kind of light and of
+// Kernels of the lighting equation: stages over a batch of points, one variant per kind of light and of
 // highlight.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/lighting.cpp"
@@ -27,7 +27,8 @@ HWY_INLINE Vector less_times(const Vector& a, const Vector& b, Float s) {
   return {neg_mul_add(b.x, s, a.x), neg_mul_add(b.y, s, a.y), neg_mul_add(b.z, s, a.z)};
 }
 HWY_INLINE Float squared_length(const Vector& v) { return dot(v, v); }
-/// The cosine of two unit vectors that are that far apart: near 1 it has the error of what is missing there.
+/// Cosine of the angle between unit vectors with the difference `apart`: 1 - |apart|^2 / 2. Near 1 the error
+/// is relative to the difference from 1.
 HWY_INLINE Float cosine_of_units(const Vector& apart) {
   return mul_add(splat(-0.5f), squared_length(apart), splat(1.0f));
 }
@@ -55,13 +56,12 @@ HWY_INLINE void accumulate(Vector& sum, Float intensity, const Vector& color) {
   sum.z = mul_add(intensity, color.z, sum.z);
 }
 
-/// What the stages of one light hand on. Each stage goes over all points before the next begins: the roots
-/// and divisions of several chunks then run beside each other, and whether there is anything left to do is
-/// asked once for all of them.
+/// Results that the stages of one light pass on. Each stage runs over all points before the next begins:
+/// roots and divisions of several chunks overlap, and an empty stage is skipped by one test.
 struct alignas(64) Incidence {
   float to_light[3][kBatchPoints];  // unit
-  float n_dot_l[kBatchPoints];      // 0 where the light comes from behind or does not reach
-  float factor[kBatchPoints];       // att, and 0 where the light does not reach; then att * spot
+  float n_dot_l[kBatchPoints];      // 0 if the light is behind the surface or does not reach the point
+  float factor[kBatchPoints];       // att, or 0 if the light does not reach the point; then att * spot
   float cosine[kBatchPoints];       // of a spot, to its axis
   float highlight[kBatchPoints];    // S.n, its square or R.E
 
@@ -73,14 +73,14 @@ struct alignas(64) Incidence {
 
 HWY_INLINE Float clamp_finite(Float amount) { return lesser_of(amount, splat(kMaxFloat)); }
 
-/// Where the light comes from, and how much of it; of a spot without the power that its cone has. Returns
-/// whether any point faces it.
+/// Computes direction and attenuation of the light at each point, without the spot factor. Returns whether
+/// any point faces the light.
 template <LightKind kKind>
 HWY_NOINLINE bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count,
                                  Incidence& light) {
   constexpr bool kAttenuated = kKind == LightKind::attenuated_point || kKind == LightKind::attenuated_spot;
   const Float zero = hn::Zero(kFloat), one = splat(1.0f);
-  // Read before the loop: a compiler must assume that stores change `term`.
+  // Loaded before the loop: the compiler must assume that stores change `term`.
   const Vector from = splat_vector(term.position), attenuation = splat_vector(term.attenuation),
                spot_direction = splat_vector(term.spot_direction);
   const Float spot_cosine = splat(term.spot_cosine), spot_chord_squared = splat(term.spot_chord_squared);
@@ -135,8 +135,7 @@ bool find_incidence(const LightTerm& term, const ShadingBatch& batch, int count,
   }
 }
 
-/// Calls visit(point, its x to that power) for one chunk of points after the other; powers are taken of
-/// several chunks at once.
+/// Calls visit(point, x^power of the points) for each chunk, in order. Powers of several chunks overlap.
 template <class Visit>
 HWY_INLINE void for_each_power(const Power& power, const float* x, int count, const Visit& visit) {
   constexpr int kTogether = 4;
@@ -151,7 +150,7 @@ HWY_INLINE void for_each_power(const Power& power, const float* x, int count, co
   });
 }
 
-/// What a spot's cone leaves of its light.
+/// Applies the spot factor.
 void apply_cone(const LightTerm& term, int count, Incidence& light) {
   for_each_power(term.spot_power, light.cosine, count, [&](int point, Float share) HWY_ATTR {
     hn::Store(clamp_finite(hn::Mul(share, hn::Load(kFloat, light.factor + point))), kFloat,
@@ -159,14 +158,14 @@ void apply_cone(const LightTerm& term, int count, Incidence& light) {
   });
 }
 
-/// Where a highlight can be: on what faces the light, with a power that is seen.
+/// Points that may have a visible highlight: they face the light, and their base exceeds highlight_floor.
 HWY_INLINE auto is_shiny(Float floor, const Incidence& light, int point) {
   return hn::AndNot(hn::Le(hn::Load(kFloat, light.highlight + point), floor),
                     hn::Gt(hn::Load(kFloat, light.n_dot_l + point), hn::Zero(kFloat)));
 }
 
-/// S.n, its square or R.E. Returns whether there is a highlight anywhere.
-/// kFixedHalf: S is the same for all points, of a directional light and an infinite viewer.
+/// Computes the base of the highlight: S.n, its square, or R.E. Returns whether any point has a highlight.
+/// @param kFixedHalf  S is the same for all points: directional light, infinite viewer
 template <HighlightKind kHighlight, bool kFixedHalf>
 HWY_NOINLINE bool find_highlights(const LightTerm& term, const ShadingBatch& batch, int count,
                                   Incidence& light) {
@@ -227,7 +226,7 @@ bool find_highlights(const LightTerm& term, const ShadingBatch& batch, int count
   }
 }
 
-/// Three sums of each point: before the first light has its part in them, they are the same everywhere.
+/// Three sums per point; one start value for all points until a light has been added.
 struct Sums {
   BatchField first_field;
   Rgb start;
@@ -238,7 +237,7 @@ struct Sums {
   }
 };
 
-/// Adds the diffuse part of a light to a chunk of points, and highlights, if there are any.
+/// Adds the diffuse and, if there is one, the specular term of a light to a chunk of points.
 template <class... Highlight>
 HWY_INLINE void add_products(const Incidence& light, int point, const Vector& diffuse_color,
                              const Vector& specular_color, const Sums& sums, ShadingBatch& batch,
@@ -250,11 +249,10 @@ HWY_INLINE void add_products(const Incidence& light, int point, const Vector& di
   (accumulate(sum, highlight, specular_color), ...);
   store_vector(batch, sums.first_field, point, sum);
 }
-/// Adds the diffuse part of a light, and spec * att * spot from S.n, its square or R.E, if there is a
-/// highlight anywhere.
+/// Adds the terms of a light to all points, with spec * att * spot if any point has a highlight.
 void add_colors(const LightTerm& term, bool has_tracked, bool highlights, int count, const Incidence& light,
                 Sums& color, Sums& tracked, ShadingBatch& batch) {
-  // Read before the loops, as in find_incidence().
+  // Loaded before the loops, as in find_incidence().
   const Vector diffuse = splat_vector(term.diffuse), specular = splat_vector(term.specular);
   const Float floor = splat(term.highlight_floor);
   const auto add = [&, color, tracked, has_tracked, diffuse, specular](int point, auto... highlight)
@@ -303,8 +301,7 @@ void add_light(const LightTerm& term, bool has_tracked, int count, Sums& color, 
   add_colors(term, has_tracked, shines, count, light, color, tracked, batch);
 }
 
-/// What the vertex colour multiplies is a number, and so is that colour: times 0 it is nothing. NaN comes out
-/// as the lowest.
+/// Clamps to finite numbers, so that a product with 0 is 0. A NaN becomes the lowest.
 HWY_INLINE Float finite(Float c) { return lesser_of(greater_of(c, splat(-kMaxFloat)), splat(kMaxFloat)); }
 /// 0..1; a NaN becomes 0.
 HWY_INLINE Float clamped(Float c) {
@@ -312,7 +309,7 @@ HWY_INLINE Float clamped(Float c) {
   return lesser_of(greater_of(c, zero), one);
 }
 
-/// Normals to length 1 and to the side that is lit, and the direction to the viewer.
+/// Normalizes the normals, flips those of back faces, and computes the direction to the viewer.
 void prepare_surfaces(const LightingProgram& program, ShadingBatch& batch, int count) {
   const Float zero = hn::Zero(kFloat);
   for (int point = 0; point < count; point += kLanes) {

@@ -1,6 +1,5 @@
-// The lighting equation as a program: a short list of terms, each by stages that hold only what that light
-// needs with that material. One program lights the vertices of flat and Gouraud draws and the pixels of Phong
-// draws.
+// The lighting equation as a program: a short list of terms, each with the stages that this light needs with
+// this material. One program lights the vertices of flat and Gouraud draws and the pixels of Phong draws.
 //
 //   colour = emission_m + ambient_scene * ambient_m
 //          + sum over lights of att * spot * ( ambient_i * ambient_m + max(L.n, 0) * diffuse_i * diffuse_m +
@@ -21,9 +20,10 @@
 
 namespace tessera::detail {
 
-inline constexpr int kBatchPoints = 128;  ///< points lit at a time: vertices, or the pixels of eight blocks
+/// Points that are lit at a time: vertices, or the pixels of eight blocks.
+inline constexpr int kBatchPoints = 128;
 
-/// Structure of arrays: what is known of each point, and its colour. Eye space.
+/// Fields of a batch's points. Vectors are in eye space.
 enum BatchField : std::uint8_t {
   kNormalX,
   kNormalY,
@@ -33,25 +33,24 @@ enum BatchField : std::uint8_t {
   kPositionZ,
   kVertexR,
   kVertexG,
-  kVertexB,  // the vertex colour, where it stands for a material's colour
+  kVertexB,  // vertex color that replaces a material's color
   kViewX,
   kViewY,
-  kViewZ,  // towards a local viewer, unit
+  kViewZ,  // unit vector towards a local viewer
   kNormalDotView,
   kColorR,
   kColorG,
-  kColorB,  // the sum; the result, clamped to 0..1, or a masked index in the first
+  kColorB,  // the sum, then the result: colors 0..1, or a masked index in the first
   kTrackedR,
   kTrackedG,
-  kTrackedB,  // the sum of what the vertex colour multiplies
+  kTrackedB,  // the sum of the terms that the vertex color multiplies
   kTextureS,
   kTextureT,          // texture coordinates
-  kFootprintSquared,  // the larger square of how many texels of level 0 one goes by, by pixels to the right
-                      // and up
+  kFootprintSquared,  // squared texels of level 0 per pixel, the larger of both axes
   kTexelR,
   kTexelG,
   kTexelB,
-  kTexelA,  // of the texture there
+  kTexelA,  // texel
   kBatchFields
 };
 struct alignas(64) ShadingBatch {
@@ -80,7 +79,7 @@ struct SurfaceMaterial {
   float shininess = 0;
 };
 
-/// Which of a material's colours the vertex colour replaces.
+/// Material colors that the vertex color replaces.
 struct TrackedColors {
   bool ambient = false, diffuse = false, specular = false, emission = false;
   bool any() const { return ambient || diffuse || specular || emission; }
@@ -90,19 +89,19 @@ struct LightingModel {
   Rgb scene_ambient{0.2f, 0.2f, 0.2f};
   bool local_viewer = false;
   bool phong_highlight = false;  ///< (R.E)^shininess instead of (S.n)^shininess
-  bool unit_normals = false;     ///< normals that are lit have length 1, or none
+  bool unit_normals = false;     ///< lit normals have length 1 or 0
 };
 
-/// Above this highlights of unit normals are measured by how far vectors are apart: a cosine's own roundings,
-/// times the exponent, would begin to show.
+/// Above this shininess highlights of unit normals are computed from the distance of vectors: the rounding
+/// error of a cosine, times the exponent, would become visible.
 inline constexpr float kSharpShininess = 2048;
 
-/// Below this angle in degrees a point is in a spot's cone by how far vectors are apart: their cosine, near
-/// 1, is too coarse.
+/// Below this cutoff, in degrees, a spot's cone is tested by the distance of vectors: cosines near 1 are too
+/// coarse.
 inline constexpr float kNarrowCone = 1;
 
-/// What a light brings to a point is cut here, and what that is made of: n.L, distance, attenuation, cone,
-/// highlight; and its colours, and vertex colours. Times black it is nothing then, and not NaN.
+/// Upper bound of all factors of a light's contribution (n.L, distance, attenuation, cone, highlight,
+/// colors), so that a product with black is 0 and not NaN.
 inline constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
 enum class LightKind : std::uint8_t { directional, point, attenuated_point, spot, attenuated_spot };
@@ -112,31 +111,33 @@ constexpr bool is_spot(LightKind kind) {
   return kind == LightKind::spot || kind == LightKind::attenuated_spot;
 }
 
-/// One light on one material: products are taken, constants are folded.
+/// One light on one material, with products of colors taken and constants folded.
 struct LightTerm {
   LightKind kind = LightKind::directional;
   HighlightKind highlight = HighlightKind::none;
-  // Two other ways to a highlight of unit normals than the power of S.n or R.E:
-  bool sharp = false;    ///< above kSharpShininess, by the distance of n and S, or R and E
-  bool squared = false;  ///< ((S.n)^2)^(s/2), without a root, where S differs from point to point and no
-                         ///< power that is seen comes from a square below 2^-126
-  std::array<float, 3> position{};     ///< or direction
+  // Highlights of unit normals that are not computed as the power of S.n or R.E:
+  bool sharp = false;  ///< above kSharpShininess: from the distance of n and S, or R and E
+  /// ((S.n)^2)^(s/2), which needs no root. If S varies and no visible power comes from a square below 2^-126.
+  bool squared = false;
+  std::array<float, 3> position{};     ///< or the direction
   std::array<float, 3> half_vector{};  ///< directional light, infinite viewer, Blinn: normalize(L + (0,0,1))
   std::array<float, 3> spot_direction{};
   std::array<float, 3> attenuation{};
   float spot_cosine = 0;
-  float spot_chord_squared = 0;  ///< of a cone below kNarrowCone: the square of how far -L and its direction
-                                 ///< may be apart; 0: spot_cosine counts
-  Power spot_power, highlight_power;  ///< of the cosine to the axis; of S.n, its square or R.E
-  /// Up to here these make no highlight: their power, times what it is multiplied by, is below 2^-32, or they
-  /// are below 2^-126. NaN, which nothing is up to, where the power is 1 for everything.
+  /// Cones below kNarrowCone: largest squared distance of -L and the cone's direction; 0: spot_cosine
+  /// decides.
+  float spot_chord_squared = 0;
+  Power spot_power;       ///< of the cosine to the axis
+  Power highlight_power;  ///< of S.n, its square or R.E
+  /// Bases at or below this value contribute no highlight: base^shininess * factor < 2^-32, or the base is
+  /// below 2^-126. NaN if shininess is 0: the comparison is then never true, and every base contributes 1.
   float highlight_floor = 0;
   Rgb ambient{}, diffuse{}, specular{};  ///< light times material
   Rgb tracked_ambient{}, tracked_diffuse{},
-      tracked_specular{};  ///< the light's, for the vertex colour to multiply
+      tracked_specular{};  ///< the light's, multiplied by the vertex color
 };
 
-/// The whole of one surface: a material's front or back under a list of lights.
+/// One surface: the front or back of a material under a list of lights.
 struct LightingProgram {
   bool renormalize = false;    ///< normals were interpolated
   bool negate_normal = false;  ///< a back face
@@ -144,13 +145,12 @@ struct LightingProgram {
   Rgb base{};  ///< emission + scene ambient
   Rgb tracked_base{};
   std::vector<LightTerm> terms;
-  bool index = false;                     ///< the result is an index; red of the sum is d, green is s
+  bool index = false;                     ///< the result is an index: d is summed in red, s in green
   std::array<float, 3> indexes{0, 1, 1};  ///< ambient, diffuse, specular
-  float index_modulus = 2;                ///< 2^bits: the index is masked
+  float index_modulus = 2;                ///< 2^bits of the buffer
 };
 
-/// Plans the lighting of a surface. Terms that its lights and material cannot need are left out.
-///
+/// Plans a surface: the program holds only what lights and material need.
 /// @param notes         receives the effects of each light
 /// @param term_storage  memory for the terms; its contents are discarded
 LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked,
@@ -163,13 +163,13 @@ struct IndexMaterial {
   float shininess = 0;
   float modulus = 2;  ///< 2^bits of the buffer
 };
-/// The same for indices.
+/// plan_lighting() for indices.
 LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights,
                                     const LightingModel& model, const EffectNotes& notes,
                                     std::vector<LightTerm> term_storage = {});
 
-/// Lights `count` points, whole vectors of lanes, of the batch: needs the fields that the program names,
-/// leaves the colour or index. Points that nobody looks at may hold any bits. Bit-identical to
+/// Lights the first `count` points of the batch, whole vectors of lanes: reads the fields that the program
+/// needs, writes the color or index. Unused points may hold any bits. Bit-identical to
 /// light_point_reference() on every instruction set.
 using LightPoints = void(const LightingProgram& program, ShadingBatch& batch, int count);
 LightPoints* light_points(InstructionSet isa);

@@ -1,4 +1,4 @@
-// Plans what a surface's lighting consists of: the one home of 'only the effects a scene calls for'.
+// Plans the lighting of a surface: its program holds only the terms that can contribute.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,41 +21,40 @@ double dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
   return double{a[0]} * b[0] + double{a[1]} * b[1] + double{a[2]} * b[2];
 }
 
-// Directions that their roundings to floats alone take out of a cone, by less than this angle, are within it:
-// of 0 degrees, too.
+// Tolerance, an angle: directions that leave a cone only because they were rounded to floats count as inside,
+// even for a cone of 0 degrees.
 constexpr double kRoundingOfDirections = 0x1p-22,
                  kDegreesOfRounding = kRoundingOfDirections * 180 / 3.14159265358979323846;
 
-// A cone on a directional light applies with V = -L: the same factor for every point.
+// The spot factor of a directional light, with V = -L: constant over all points.
 float directional_spot_factor(const EyeLight& light) {
   const auto& l = light.position;
   const auto& d = light.spot_direction;
-  const double lengths = std::sqrt(
-      dot(l, l) * dot(d, d));  // of floats, which miss 1 by more than the cosines of very narrow cones do
+  // Rounded unit vectors differ from length 1 by more than the cosines of very narrow cones differ from 1.
+  const double lengths = std::sqrt(dot(l, l) * dot(d, d));
   if (lengths == 0) return 0;
   const double cosine = std::min(-dot(l, d) / lengths, 1.0);
   if (cosine < sine_cosine(light.spot_cutoff + kDegreesOfRounding).cosine || cosine <= 0) return 0;
   return power_of_reference(static_cast<float>(cosine), light.spot_exponent);
 }
 
-/// The square of how far unit vectors within a cone are apart from its direction.
+/// Largest squared distance between the cone's direction and a unit vector inside the cone.
 float squared_chord(float degrees) {
   const double chord = 2 * sine_cosine(degrees / 2.0).sine + kRoundingOfDirections;
   return static_cast<float>(chord * chord);
 }
 
-/// Bits before the binary point of what a highlight is multiplied by, its product of colours over the
-/// attenuation. No more than there are powers for, which end at 2^-126: what is multiplied by still more
-/// loses the foot of its highlight.
+/// Integer bits of the factor of a highlight, the product of colors over the attenuation. Limited by the
+/// range of powers, which ends at 2^-126: with a larger factor the foot of the highlight is lost.
 float bits_above_one(const LightTerm& term) {
   constexpr double kMaxBits = 94;
-  if (!is_black(term.tracked_specular)) return kMaxBits;  // whatever vertices have
+  if (!is_black(term.tracked_specular)) return kMaxBits;  // vertex colors are unbounded
   double most =
       std::max({std::abs(term.specular[0]), std::abs(term.specular[1]), std::abs(term.specular[2])});
   if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
     const auto [constant, linear, quadratic] = term.attenuation;
     if (!(constant > 0 && linear >= 0 && quadratic >= 0))
-      return kMaxBits;  // with the distance it may come to any
+      return kMaxBits;  // attenuation may be arbitrarily small
     most /= constant;
   }
   return most > 1 ? static_cast<float>(std::min(std::ilogb(most) + 1.0, kMaxBits)) : 0.0f;
@@ -101,7 +100,7 @@ void note_term(const EffectNotes& notes, const LightTerm& term, int light) {
     note(Effect::light_tracked_colors, true, EffectReason::requested);
 }
 
-// What no float holds is the largest one: where no light arrives, nothing times it is still nothing.
+// Products beyond the range of floats become the largest float, so that 0 times it is 0.
 Rgb finite(Rgb color) {
   for (float& component : color) component = std::clamp(component, -kMaxFloat, kMaxFloat);
   return color;
@@ -158,7 +157,7 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
       continue;
     }
     term.kind = kind_of(light);
-    // The ambient part of a directional light is the same everywhere.
+    // The ambient term of a directional light is constant.
     if (term.kind == LightKind::directional) {
       program.base = program.base + term.ambient;
       program.tracked_base = program.tracked_base + term.tracked_ambient;
@@ -187,13 +186,13 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
         term.highlight == HighlightKind::blinn_local ||
         (term.highlight == HighlightKind::blinn_infinite && term.kind != LightKind::directional);
     const float visible_bits =
-        32 + bits_above_one(term);  // a power is not below 2^-visible_bits, where it is seen
-    // No square is below 2^-126, no cosine by squares below 2^-63.
+        32 + bits_above_one(term);  // smaller powers are invisible: below 2^-visible_bits
+    // Squares are at least 2^-126, so cosines whose squares are used are at least 2^-63.
     term.squared =
         half_varies && model.unit_normals && !term.sharp && 63 * material.shininess >= visible_bits;
     const float exponent = term.squared ? material.shininess / 2 : material.shininess;
     term.highlight_power = make_power(exponent);
-    // x^s < 2^-b where x < 2^(-b / s): most of a shiny surface, which then needs no power at all.
+    // x^s < 2^-b if x < 2^(-b / s): holds for most of a shiny surface, which then needs no power.
     term.highlight_floor = exponent == 0 ? std::numeric_limits<float>::quiet_NaN()
                                          : exp2_reference(std::max(-visible_bits / exponent, -126.0f));
     program.needs_normal = true;
@@ -219,8 +218,7 @@ LightingProgram plan_index_lighting(const IndexMaterial& material, const std::ve
                                     const LightingModel& model, const EffectNotes& notes,
                                     std::vector<LightTerm> term_storage) {
   const auto [ambient, diffuse, specular] = material.indexes;
-  // Red adds up d, green s. Where both ends are the same index, what leads from one to the other does not
-  // matter.
+  // Red sums d, green s. If both ends of a ramp are the same index, the term between them is dropped.
   SurfaceMaterial surface{
       .ambient = {}, .diffuse = {}, .specular = {}, .emission = {}, .shininess = material.shininess};
   if (diffuse != ambient) surface.diffuse = {1, 0, 0};

@@ -17,7 +17,7 @@ struct PointReference {
   Rgb vertex{};
 };
 
-/// The index of a program of indices comes in red; the rest means nothing.
+/// A program of indices returns the index in red; the rest is undefined.
 inline Rgb light_point_reference(const LightingProgram& program, const PointReference& point) {
   using Vec = std::array<float, 3>;
   const auto dot = [](const Vec& a, const Vec& b) {
@@ -25,7 +25,7 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
   };
   const auto scaled = [](const Vec& v, float s) { return Vec{v[0] * s, v[1] * s, v[2] * s}; };
   const auto inverse_length = [](float squared) { return squared > 0 ? 1.0f / std::sqrt(squared) : 0.0f; };
-  const auto squared_distance = [&](const Vec& a, const Vec& b, float s) {  // of a and b s
+  const auto squared_distance = [&](const Vec& a, const Vec& b, float s) {  // of a and s b
     const Vec apart{std::fma(-b[0], s, a[0]), std::fma(-b[1], s, a[1]), std::fma(-b[2], s, a[2])};
     return dot(apart, apart);
   };

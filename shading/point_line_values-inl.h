@@ -1,5 +1,5 @@
-// What is linear along a line: depth keys and colours of the pixels it covers. Beyond the ends, where pixels
-// of wide lines are, too [GL 2.1, 3.4.1].
+// Depth keys and parameters of pixels along a line, also beyond its ends, where wide lines have pixels
+// [GL 2.1, 3.4.1].
 #if defined(TESSERA_SHADING_POINT_LINE_VALUES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_POINT_LINE_VALUES_INL_H_
 #undef TESSERA_SHADING_POINT_LINE_VALUES_INL_H_
@@ -22,12 +22,12 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// An offset in whole units of depth words; at most far outside.
+/// An offset in whole units of depth words, clamped to +-2^32.
 HWY_INLINE double whole_offset(double offset) {
   return offset != 0 ? std::floor(std::clamp(offset, -0x1p32, 0x1p32) + 0.5) : 0;
 }
 
-/// Depth in units of what is stored: levels, or floats.
+/// Depth along a line, in stored units: levels, or floats.
 class LineDepth {
  public:
   /// @param z0, z1  depth words of the vertices (raster/fixed_point.h)
@@ -38,7 +38,7 @@ class LineDepth {
       change_ = double{std::bit_cast<float>(z1)} - std::bit_cast<float>(z0);
       return;
     }
-    // Words of 16 and 24 bits carry the half that rounds the level.
+    // Depth words of 16 and 24 bits include the half that rounds the level.
     const double scale = kind == DepthFormat::unorm16 ? 0x1p-16 : kind == DepthFormat::unorm24 ? 0x1p-8 : 1;
     first_ = scale * (z0 + whole_offset(offset));
     change_ = scale * (static_cast<double>(z1) - z0);
@@ -46,7 +46,7 @@ class LineDepth {
     if (kind == DepthFormat::unorm32) first_ += 0.5;
   }
 
-  /// The keys where the line has come as far as `t` of its length; no depth leaves 0..1.
+  /// Depth keys at the fraction `t` of the line's length, clamped to depth 0..1.
   HWY_INLINE Int keys(const Doubles& t) const {
     const Doubles depth = clamped(plus(times(t, change_), first_), 0, max_depth_);
     if (kind_ == DepthFormat::float32) return hn::BitCast(kInt, hn::Add(to_floats(depth), hn::Zero(kFloat)));
@@ -58,7 +58,7 @@ class LineDepth {
   double first_, change_, max_depth_ = 1;
 };
 
-/// The key of a point: as LineDepth has it at the first vertex, without lanes.
+/// Depth key of a point: LineDepth at the first vertex, without lanes.
 /// @pre there is depth, and the offset is a number
 HWY_INLINE std::int32_t point_key(DepthFormat kind, std::uint32_t z, double offset) {
   TESSERA_ASSERT(kind != DepthFormat::none && !std::isnan(offset));
@@ -70,14 +70,13 @@ HWY_INLINE std::int32_t point_key(DepthFormat kind, std::uint32_t z, double offs
   return depth_key_from_stored(kind, word >> (32 - depth_bits(kind)));
 }
 
-/// Where pixels stand along a line. What lies aside has the values of where it is projected onto the line; a
-/// point is the same everywhere.
+/// Positions of pixels along a line: pixels are projected onto it. A point is the same everywhere.
 struct LineValues {
   std::int32_t first_x, first_y;  // from the first vertex to the tile's first pixel centre, 1/256 pixel
   double dx, dy, per_squared_length;
   LineDepth depth;
 
-  /// Of the first vertex of element i to the one `second`: 1 of a line, 0 of a point.
+  /// @param second  the other end of element i: vertex 1 of a line, 0 of a point
   HWY_INLINE LineValues(const TileContext& context, int i, int second, double depth_offset)
       : depth(context.frame.depth_format, context.memory.group.z[0][i], context.memory.group.z[second][i],
               depth_offset) {
@@ -89,7 +88,7 @@ struct LineValues {
     const double squared_length = dx * dx + dy * dy;
     per_squared_length = squared_length > 0 ? 1 / squared_length : 0;
   }
-  /// Equation 3.5, of pixels of the tile whose centres are moved by `by`.
+  /// [GL 2.1, equation 3.5] at the centers of the tile's pixels, moved by `by`.
   HWY_INLINE Doubles parameters(Int x, Int y, SamplePosition by = {}) const {
     const auto from_first = [](Int pixel, std::int32_t first) HWY_ATTR {
       return to_doubles(hn::Add(hn::ShiftLeft<kSubpixelBits>(pixel), splat(first)));
@@ -99,7 +98,7 @@ struct LineValues {
   }
 };
 
-/// The ends' 1/w as parts of the larger one; equal where that leaves the numbers' range (as of triangles:
+/// 1/w of the ends relative to the larger one; equal if that leaves the range of floats (as for triangles:
 /// raster/triangle_setup-inl.h).
 struct RelativeRw {
   float of[2] = {1, 1};
@@ -111,44 +110,6 @@ struct RelativeRw {
     of[1] = b / largest;
   }
   HWY_INLINE bool equal() const { return of[0] == of[1]; }
-};
-
-/// Colours of an RGB buffer, interpolated along a line.
-struct LineColorEval {
-  float first[3], change[3], max_level[3], rw[2];
-  int shift[3];
-
-  HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw, int i, bool back) {
-    const ColorLayout& layout = context.frame.layout;
-    const int bits[3] = {layout.r_bits, layout.g_bits, layout.b_bits},
-              shifts[3] = {layout.r_shift(), layout.g_shift(), 0};
-    for (int c = 0; c < 3; ++c) {
-      const int attribute = draw.color_attribute[back ? 1 : 0] + c;
-      first[c] = context.memory.attributes[0][i][attribute];
-      change[c] = context.memory.attributes[1][i][attribute] - first[c];
-      max_level[c] = static_cast<float>((1 << bits[c]) - 1);
-      shift[c] = shifts[c];
-    }
-    const RelativeRw relative(context.memory.group, i, 1);
-    for (int k = 0; k < 2; ++k) rw[k] = relative.of[k];
-  }
-  /// Equation 3.6
-  HWY_INLINE Int packed(const Doubles& parameters) const {
-    Float t = to_floats(parameters);
-    if (rw[0] != rw[1]) {
-      const Float far = hn::Mul(t, splat(rw[1])),
-                  sum = hn::Add(hn::Mul(hn::Sub(splat(1.0f), t), splat(rw[0])), far);
-      t = hn::Div(far, sum);
-      t = hn::IfThenElseZero(hn::IsFinite(t), t);  // as barycentric_edges64
-    }
-    Int word = hn::Zero(kInt);
-    for (int c = 0; c < 3; ++c) {
-      const Float color = clamped_unit(mul_add(t, splat(change[c]), splat(first[c])));
-      word = hn::Or(word,
-                    hn::ShiftLeftSame(truncate(mul_add(color, splat(max_level[c]), splat(0.5f))), shift[c]));
-    }
-    return word;
-  }
 };
 
 }  // namespace HWY_NAMESPACE

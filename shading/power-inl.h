@@ -1,7 +1,7 @@
-// x^y in lanes for highlights and cones: products where y is a small whole number, which is most of what
-// materials have, else own polynomials in a fixed order, the same bits on every target. Twin:
-// power_reference.h. Coefficients: Chebyshev fits of log2(1 + t) / t on [sqrt(1/2) - 1, sqrt(2) - 1]
-// (relative error 7.8e-9) and of 2^t on [-1/2, 1/2] (2.0e-9); what is lost beyond them is rounding.
+// x^y in lanes for highlights and cones: products if y is a small whole number, as most materials have, else
+// polynomials evaluated in a fixed order, with the same bits on every target. Twin: power_reference.h.
+// Coefficients: Chebyshev fits of log2(1 + t) / t on [sqrt(1/2) - 1, sqrt(2) - 1] (relative error 7.8e-9) and
+// of 2^t on [-1/2, 1/2] (2.0e-9); the remaining error is rounding.
 #if defined(TESSERA_SHADING_POWER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_POWER_INL_H_
 #undef TESSERA_SHADING_POWER_INL_H_
@@ -31,8 +31,8 @@ HWY_INLINE Float log2_lanes(Float x) {
 
 /// 2^x for x in [-126, 127].
 HWY_INLINE Float exp2_lanes(Float x) {
-  // Adding and taking away 1.5 * 2^23 rounds to the nearest integer, ties to even, by the same exact steps
-  // everywhere.
+  // Adding and subtracting 1.5 * 2^23 rounds to the nearest integer, ties to even, identically on all
+  // targets.
   const Float rounded = hn::Sub(hn::Add(x, splat(kRoundingBias)), splat(kRoundingBias));
   const Int whole = truncate(rounded);
   const Float t = hn::Sub(x, rounded);
@@ -41,7 +41,7 @@ HWY_INLINE Float exp2_lanes(Float x) {
   return hn::BitCast(kFloat, hn::Add(hn::BitCast(kInt, p), hn::ShiftLeft<23>(whole)));
 }
 
-/// x^y for y > 0; 0 for x <= 0 or NaN. Results below 2^-126 come out as 2^-126, above 2^96 as that.
+/// x^y for y > 0; 0 for x <= 0 or NaN. Results are clamped to 2^-126 .. 2^96.
 HWY_INLINE Float power_lanes(Float x, float y) {
   const auto positive = hn::Gt(x, hn::Zero(kFloat));
   const Float safe = greater_of(x, splat(kMinNormal));
@@ -50,9 +50,9 @@ HWY_INLINE Float power_lanes(Float x, float y) {
   return hn::IfThenElseZero(positive, exp2_lanes(product));
 }
 
-/// x^n for n = 1 .. kMaxIntegerExponent, by products of squares: off by what n - 1 roundings come to. 0 for x
-/// <= 0 or NaN; x below `min_base` counts as that, and what is above 2^96 comes out as that. The x in place,
-/// beside each other: the way through n is the same for all.
+/// x^n in place for n = 1 .. kMaxIntegerExponent, by products of squares; the error is that of n - 1
+/// roundings. 0 for x <= 0 or NaN; x below `min_base` counts as min_base; results are at most 2^96. Several x
+/// at a time: the branches on n are the same for all.
 /// @param min_base  2^min_base_log2(n)
 template <std::size_t kCount>
 HWY_INLINE void integer_power_lanes(Float (&x)[kCount], int n, float min_base) {
@@ -70,8 +70,8 @@ HWY_INLINE void integer_power_lanes(Float (&x)[kCount], int n, float min_base) {
     x[i] = hn::IfThenElseZero(hn::Gt(x[i], hn::Zero(kFloat)), lesser_of(product[i], splat(kMaxPower)));
 }
 
-/// Calls run(raise), where raise(x), of an array, takes its x to that power in place: how is chosen once for
-/// many x. x^0 is 1 whatever x is.
+/// Calls run(raise), where raise(x) raises the elements of an array to that power in place: the method is
+/// chosen once for many x. x^0 is 1 for any x.
 template <class Run>
 HWY_INLINE void with_power(const Power& power, const Run& run) {
   if (power.whole != 0)

@@ -1,4 +1,4 @@
-// Constants of the power function; see power-inl.h for where they come from.
+// Constants of the power function; power-inl.h derives them.
 #pragma once
 
 #include <cstdint>
@@ -8,25 +8,24 @@ namespace tessera::detail {
 inline constexpr std::int32_t kSqrtHalfBits = 0x3f3504f3;  ///< of sqrt(1/2) as a float
 inline constexpr float kRoundingBias = 0x1.8p23f;
 inline constexpr float kMinNormal = 0x1p-126f;
-/// Powers are cut at 2^96.
+/// Powers are clamped to 2^96.
 inline constexpr float kMaxLog2 = 96.0f, kMaxPower = 0x1p96f;
 
-/// Up to here whole exponents are products of squares.
+/// Whole exponents up to this are products of squares.
 inline constexpr int kMaxIntegerExponent = 64;
-/// The exponent, if it is one of those; else 0.
+/// The exponent as such a whole number; else 0.
 constexpr int integer_exponent(float exponent) {
   const int whole = exponent >= 1 && exponent <= kMaxIntegerExponent ? static_cast<int>(exponent) : 0;
   return static_cast<float>(whole) == exponent ? whole : 0;
 }
-/// The logarithm of what smaller numbers count as under a whole exponent: a hair above 2^(-126 / n), so that
-/// no product is subnormal.
+/// log2 of the least base under a whole exponent, slightly above -126 / n, so that no product is subnormal.
 constexpr float min_base_log2(int whole) { return -125.99f / static_cast<float>(whole); }
 
-/// How a power of many numbers is worked out. By default: x^0.
+/// Method to raise many numbers to one power. Default: x^0.
 struct Power {
   float exponent = 0;
   int whole = 0;       ///< integer_exponent(exponent)
-  float min_base = 0;  ///< 2^min_base_log2(whole): what smaller numbers count as
+  float min_base = 0;  ///< 2^min_base_log2(whole): smaller bases count as this
 };
 
 inline constexpr int kLog2Terms = 10;

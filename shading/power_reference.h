@@ -47,13 +47,13 @@ inline float integer_power_reference(float x, int n) {
   return product < kMaxPower ? product : kMaxPower;
 }
 
-/// How kernels work out x^exponent: planned once, where they would work out `min_base` again for each batch.
+/// x^exponent as kernels compute it. Kernels plan `min_base` once, not for each batch.
 inline Power make_power(float exponent) {
   const int whole = integer_exponent(exponent);
   return {exponent, whole, whole != 0 ? exp2_reference(min_base_log2(whole)) : 0};
 }
 
-/// x^0 is 1 whatever x is.
+/// x^0 is 1 for any x.
 inline float power_of_reference(float x, float exponent) {
   if (const int whole = integer_exponent(exponent); whole != 0) return integer_power_reference(x, whole);
   return exponent == 0 ? 1.0f : power_reference(x, exponent);

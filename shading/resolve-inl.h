@@ -1,5 +1,4 @@
-// Colours of a tile's pixels from those of their samples: the mean of the stored levels. Twin:
-// resolve_reference.h.
+// MSAA resolve: a pixel's color is the mean of its samples' stored levels. Twin: resolve_reference.h.
 #if defined(TESSERA_SHADING_RESOLVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_RESOLVE_INL_H_
 #undef TESSERA_SHADING_RESOLVE_INL_H_
@@ -13,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// The components of a packed color.
+/// Bit fields of a packed color.
 struct PackedFields {
   int count = 0, shift[4], bits[4];
   explicit PackedFields(const ColorLayout& layout) {
@@ -29,7 +28,7 @@ struct PackedFields {
   }
 };
 
-/// The workspace's colour becomes that of its samples.
+/// Resolves the samples' colors into the workspace's color.
 inline HWY_NOINLINE void resolve_samples(TileContext& context) {
   const PackedFields fields(context.frame.layout);
   const int shift = context.samples == 8 ? 3 : 2;

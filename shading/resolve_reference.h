@@ -1,4 +1,4 @@
-// One pixel from its samples: the specification of resolve-inl.h.
+// Scalar twin of resolve-inl.h and its specification: one pixel.
 #pragma once
 
 #include "framebuffer/format.h"

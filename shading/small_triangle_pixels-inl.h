@@ -1,5 +1,5 @@
-// Pixels of triangles so small that each has but a few: those of a whole group stand side by side in lanes,
-// and are stored one after the other.
+// Pixels of small triangles with interpolated colors: those of a whole group are evaluated in lanes, and
+// tested and stored one by one, in order.
 #if defined(TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_
 #undef TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_
@@ -13,112 +13,23 @@
 
 #include "raster/depth-inl.h"
 #include "raster/lanes-inl.h"
+#include "shading/color_eval-inl.h"
+#include "shading/pick_by_triangle-inl.h"
 #include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// One element for each of kGroupSize triangles, picked by their numbers in the lanes.
-struct PickByTriangle {
-#if HWY_TARGET == HWY_SCALAR
-  Int triangle;
-  HWY_INLINE explicit PickByTriangle(Int of) : triangle(of) {}
-  HWY_INLINE Int operator()(const std::int32_t* array) const { return Int(array[triangle.raw]); }
-  HWY_INLINE Float operator()(const float* array) const { return Float(array[triangle.raw]); }
-#else
-  using Indices = decltype(hn::IndicesFromVec(kInt, Int()));
-  Indices place;
-  hn::Mask<IntTag> is_second;  // with 8 lanes half of the array is another vector
-  HWY_INLINE explicit PickByTriangle(Int triangle)
-      : place(hn::IndicesFromVec(kInt, hn::And(triangle, splat(kLanes - 1)))),
-        is_second(hn::Gt(triangle, splat(kLanes - 1))) {}
-  HWY_INLINE Int operator()(const std::int32_t* array) const {
-    const Int first = hn::TableLookupLanes(hn::Load(kInt, array), place);
-    return kLanes == kGroupSize
-               ? first
-               : hn::IfThenElse(is_second,
-                                hn::TableLookupLanes(hn::Load(kInt, array + kGroupSize - kLanes), place),
-                                first);
-  }
-  HWY_INLINE Float operator()(const float* array) const {
-    return hn::BitCast(kFloat, (*this)(reinterpret_cast<const std::int32_t*>(array)));
-  }
-#endif
-};
-
-/// Colours at the vertices of a group's triangles, as arrays.
-struct SmallTriangleColorEval {
-  alignas(64) float component[3][3][kGroupSize];  // red, green and blue of each vertex
-  int r_shift, g_shift;
-
-  /// @param triangles  those that have pixels, a bit each; what others get means nothing
-  HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw, std::uint32_t triangles) {
-    r_shift = context.frame.layout.r_shift();
-    g_shift = context.frame.layout.g_shift();
-    const bool has_faces = draw.color_attribute[0] != draw.color_attribute[1];
-    for (int first = 0; first < kGroupSize; first += 4) {
-      if ((triangles >> first & 15) == 0) continue;
-      int triangle[4], attribute[4];
-      for (int t = 0; t < 4; ++t) {
-        triangle[t] = std::min(first + t, context.memory.group.count - 1);
-        attribute[t] = draw.color_attribute[has_faces && is_back(context, draw, triangle[t]) ? 1 : 0];
-      }
-      for (int k = 0; k < 3; ++k) {
-        const auto of = [&](int t)
-                            HWY_ATTR { return context.memory.attributes[k][triangle[t]] + attribute[t]; };
-        set_up_four(of(0), of(1), of(2), of(3), component[k], first);
-      }
-    }
-  }
-  /// GouraudColorEval::packed(), of pixels of several triangles.
-  HWY_INLINE Int packed(const PickByTriangle& pick, Float b1, Float b2) const {
-    const auto level = [&](int c) HWY_ATTR {
-      const Float at_first = pick(component[0][c]);
-      const Float to_second = hn::Sub(pick(component[1][c]), at_first),
-                  to_third = hn::Sub(pick(component[2][c]), at_first);
-      return truncate(mul_add(b1, to_second, mul_add(b2, to_third, at_first)));
-    };
-    return hn::Or(hn::Or(hn::ShiftLeftSame(level(0), r_shift), hn::ShiftLeftSame(level(1), g_shift)),
-                  level(2));
-  }
-
- private:
-#if HWY_TARGET == HWY_SCALAR
-  static HWY_INLINE void set_up_four(const float* c0, const float* c1, const float* c2, const float* c3,
-                                     float (&to)[3][kGroupSize], int first) {
-    for (int c = 0; c < 3; ++c)
-      to[c][first] = c0[c], to[c][first + 1] = c1[c], to[c][first + 2] = c2[c], to[c][first + 3] = c3[c];
-  }
-#else
-  // Four rows of r g b and what follows: three columns. Four floats can be read from each.
-  static HWY_INLINE void set_up_four(const float* c0, const float* c1, const float* c2, const float* c3,
-                                     float (&to)[3][kGroupSize], int first) {
-    constexpr hn::CappedTag<float, 4> four;
-    constexpr hn::Repartition<double, decltype(four)> pairs;
-    const auto r0 = hn::LoadU(four, c0), r1 = hn::LoadU(four, c1), r2 = hn::LoadU(four, c2),
-               r3 = hn::LoadU(four, c3);
-    const auto rg01 = hn::BitCast(pairs, hn::InterleaveLower(four, r0, r1)),
-               rg23 = hn::BitCast(pairs, hn::InterleaveLower(four, r2, r3));  // r r g g
-    const auto b01 = hn::BitCast(pairs, hn::InterleaveUpper(four, r0, r1)),
-               b23 = hn::BitCast(pairs, hn::InterleaveUpper(four, r2, r3));
-    hn::Store(hn::BitCast(four, hn::InterleaveLower(pairs, rg01, rg23)), four, to[0] + first);
-    hn::Store(hn::BitCast(four, hn::InterleaveUpper(pairs, rg01, rg23)), four, to[1] + first);
-    hn::Store(hn::BitCast(four, hn::InterleaveLower(pairs, b01, b23)), four, to[2] + first);
-  }
-#endif
-};
-
-/// Pixels of a group's small triangles, in the order in which they are drawn, and their colours.
+/// Pixels of a group's small triangles in drawing order, and their colors.
 struct SmallTrianglePixels {
   static constexpr int kCapacity = kGroupSize * kBlockPixels;
   int count = 0;
-  alignas(64) std::int32_t
-      place[kCapacity + kLanes];  // the triangle's number in the group, and y and x in the tile: 8 bits each
-  alignas(64) std::int32_t index[kCapacity + kLanes];   // of the pixel
-  alignas(64) std::int32_t key[kCapacity + kLanes];     // of its depth, where kHasKeys
-  alignas(64) std::int32_t packed[kCapacity + kLanes];  // of its colour
-  std::uint32_t triangles = 0;                          // that have pixels
+  alignas(64) std::int32_t place[kCapacity + kLanes];   // triangle << 16 | y << 8 | x, tile-relative
+  alignas(64) std::int32_t index[kCapacity + kLanes];   // of the pixel in the tile
+  alignas(64) std::int32_t key[kCapacity + kLanes];     // depth key, if kHasKeys
+  alignas(64) std::int32_t packed[kCapacity + kLanes];  // color
+  std::uint32_t triangles = 0;                          // triangles with pixels, one bit each
   static_assert(kMaxTileSize <= 256);
   static HWY_INLINE Int x_of(Int at) { return hn::And(at, splat(255)); }
   HWY_INLINE int triangle(int p) const { return place[p] >> 16; }
@@ -138,7 +49,8 @@ struct SmallTrianglePixels {
     }
 #endif
   }
-  /// Words at barycentric coordinates as barycentric_from_edges() has them. @pre set_up_weights
+  /// Evaluates the colors, with the barycentric coordinates of barycentric_from_edges(). @pre
+  /// set_up_weights()
   HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw) {
     const TriangleGroup& g = context.memory.group;
     SmallTriangleColorEval colors;
@@ -165,10 +77,10 @@ struct SmallTrianglePixels {
       hn::Store(colors.packed(pick, w[1], w[2]), kInt, packed + first);
     }
   }
-  /// Whether keys come in lanes: of a depth format that they do for, and where products of 64 bits do.
+  /// Whether depth keys are computed in lanes: needs products of 64 bits.
   template <class Depth>
   static constexpr bool kHasKeys = HWY_TARGET == HWY_AVX3&& std::is_same_v<Depth, UnormDepth>;
-  /// As UnormDepth::key() has them. @pre set_up
+  /// As UnormDepth::key(). @pre set_up()
   HWY_INLINE void set_up_keys([[maybe_unused]] const TriangleGroup& g, [[maybe_unused]] DepthFormat kind) {
 #if HWY_TARGET == HWY_AVX3
     const int shift = kind == DepthFormat::unorm16 ? 16 : 8;

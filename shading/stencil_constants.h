@@ -1,4 +1,4 @@
-// Stencil test and actions as constants, so that pixels go through them without a branch on what they are.
+// Stencil test and operations as constants, so that pixels need no branch on their kind.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,7 @@
 
 namespace tessera::detail {
 
-/// An action: min(max(((stored & keep) ^ flip) + add, min_value), max_value), of which the bits that may be
-/// written are stored.
+/// An operation: min(max(((stored & keep) ^ flip) + add, min_value), max_value), stored under the write mask.
 struct StencilOpConstants {
   std::int32_t keep = -1, flip = 0, add = 0;
   std::int32_t min_value = std::numeric_limits<std::int32_t>::min(),
@@ -35,8 +34,8 @@ constexpr StencilOpConstants stencil_op_constants(StencilOp action, std::int32_t
   }
 }
 
-/// The values that pass a comparison with a reference in front: `count` from `first` on, modulo 2^32. Stored
-/// ones are below 2^31.
+/// Stored values v for which `reference func v` passes: `count` values from `first` on, modulo 2^32. Stored
+/// values are below 2^31.
 struct PassingValues {
   std::uint32_t first = 0, count = 0;
 };
@@ -60,7 +59,8 @@ struct StencilTestConstants {
   std::int32_t mask = 0;
   std::int32_t write_mask = 0;
   StencilOpConstants fail, zfail, zpass;
-  bool fail_writes = false, zfail_writes = false, zpass_writes = false;  ///< else nothing changes then
+  bool fail_writes = false, zfail_writes = false,
+       zpass_writes = false;  ///< false: that outcome changes nothing
 
   constexpr bool writes() const { return fail_writes || zfail_writes || zpass_writes; }
   constexpr bool passes(std::int32_t stored) const {

@@ -8,7 +8,7 @@ namespace tessera::detail {
 
 void TexelPlaces::set_up(const TexelTile& tile, int samples, int sample) {
   const PixelRect& rect = tile.rect;
-  // The blocks that the rectangle's edges run through are whole.
+  // Blocks at the edges of the rectangle are processed whole.
   std::fill(column + (rect.x0 & ~3), column + ((rect.x1 + 3) & ~3), kNoTexel);
   std::fill(row + (rect.y0 & ~3), row + ((rect.y1 + 3) & ~3), kNoTexel);
   texel_columns(tile.texels, tile.tile_x + rect.x0, tile.tile_x + rect.x1, samples, sample, column + rect.x0);
@@ -43,7 +43,7 @@ void TexelPlaces::fetch(const PixelRectangle& texels, int bx, int by, std::uint3
         texels.row(row[by + p / kBlockSize]) + std::ptrdiff_t{column[bx + p % kBlockSize]} * texels.channels;
     const std::uint8_t levels[4] = {at[0], at[is_grey ? 0 : 1], at[is_grey ? 0 : 2],
                                     texels.channels % 2 == 0 ? at[texels.channels - 1] : std::uint8_t{255}};
-    // Divided, so that a level is the float nearest to it: tests compare with such.
+    // A division, so that a level becomes the nearest float: tests compare with such values.
     for (int c = 0; c < 4; ++c) colors[c * kBlockPixels + p] = static_cast<float>(levels[c]) / 255.0f;
   }
 }

@@ -1,5 +1,5 @@
-// The blocks of a tile that see a bitmap's or an image's texels: which pixels, and their colours. Plain code,
-// once for all instruction sets: what happens to the fragments then takes longer.
+// Texels of a bitmap or an image at the pixels of a tile's blocks. Compiled once for all instruction sets:
+// the operations on the fragments take longer.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tessera::detail {
 
-/// Where the texels of a draw meet the pixels of a tile.
+/// The texels of a draw, and the pixels of a tile.
 struct TexelTile {
   const PixelRectangle& texels;
   const TileGrid& grid;
@@ -17,15 +17,15 @@ struct TexelTile {
   PixelRect rect;      ///< where the draw may change pixels, tile-relative
 };
 
-/// The texels that a tile's pixels see at one of their samples; kNoTexel outside of the draw's rectangle.
+/// The texel at each column and row of a tile, for one sample; kNoTexel outside the draw's rectangle.
 struct TexelPlaces {
   std::int32_t column[kMaxTileSize], row[kMaxTileSize];
 
   void set_up(const TexelTile& tile, int samples, int sample);
   bool same_in_block(const TexelPlaces& other, int bx, int by) const;
-  /// The pixels of a block that see a texel, or a bit that is set; 16 bits.
+  /// Pixels of a block with a texel, or with a bit of a bitmap that is set; 16 bits.
   std::uint32_t covered(const PixelRectangle& texels, int bx, int by) const;
-  /// The colours of these pixels, 0..1: r of the whole block, then g, b and a. @pre an image
+  /// Writes the colors 0..1 of these pixels: r of the whole block, then g, b and a. @pre an image
   void fetch(const PixelRectangle& texels, int bx, int by, std::uint32_t bits, float* colors) const;
 };
 

@@ -1,5 +1,5 @@
-// Texels of a batch of points: loaded, interpolated, and as colors. Components are levels with 8 fraction
-// bits, two in each lane.
+// Texels in lanes: loads, interpolation, and conversion to colors. Components are levels with 8 fraction
+// bits, two per lane.
 #if defined(TESSERA_SHADING_TEXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXELS_INL_H_
 #undef TESSERA_SHADING_TEXELS_INL_H_
@@ -14,23 +14,23 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Blue below red, green below alpha.
+/// Per lane: red above blue, alpha above green, 16 bits each.
 struct Texels {
   Int br, ga;
 };
 
 #if HWY_TARGET == HWY_SCALAR
-/// The 16 bits' lower bytes as upper ones, above zeros.
+/// For each 16 bits: the lower byte moved to the upper one.
 HWY_INLINE Int lower_bytes_up(Int words) {
   return hn::And(hn::ShiftLeft<8>(words), splat(static_cast<std::int32_t>(0xff00ff00u)));
 }
-/// 16 bits' upper byte as the lower one.
+/// For each 16 bits: the upper byte moved to the lower one.
 HWY_INLINE Int upper_bytes_down(Int words) {
   return hn::And(hn::BitCast(kInt, hn::ShiftRight<8>(hn::BitCast(kUint, words))), splat(0x00ff00ff));
 }
-/// Each lane's lower 16 bits, twice.
+/// The lower 16 bits of each lane in both halves.
 HWY_INLINE Int twice(Int lower) { return hn::Or(hn::And(lower, splat(0xffff)), hn::ShiftLeft<16>(lower)); }
-/// a - (a f >> 16) + (b f >> 16) for each 16 bits: exactly a where b is the same.
+/// a - (a f >> 16) + (b f >> 16) for each 16 bits: exactly a if b equals a.
 HWY_INLINE Int lerp_texels(Int a, Int b, Int f) {
   const auto part = [](std::uint32_t x, std::uint32_t y) {
     return ((x & 0xffff) * (y & 0xffff) >> 16) | ((x >> 16) * (y >> 16) & 0xffff0000u);
@@ -64,22 +64,23 @@ HWY_INLINE Texels lerp_texels(const Texels& a, const Texels& b, Int f) {
   return {lerp_texels(a.br, b.br, f), lerp_texels(a.ga, b.ga, f)};
 }
 
-/// The words at an index and after it.
+/// The texels at an index and after it.
 struct TexelPairs {
   Int left, right;
 };
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
-/// Those of two lanes, the second above the first.
+/// Pairs of two lanes, the second above the first.
 HWY_INLINE __m128 two_pairs(const std::uint32_t* words, const LaneIndices& at, int lane) {
   return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(words + at[lane]))),
                       reinterpret_cast<const __m64*>(words + at[lane + 1]));
 }
-/// Those of four lanes, the last two four lanes after the first: what parts them again stays within halves.
+/// Pairs of four lanes: `lane`, `lane` + 1 and the two that lie four lanes after them, so that later shuffles
+/// stay within halves.
 HWY_INLINE __m256 four_pairs(const std::uint32_t* words, const LaneIndices& at, int lane) {
   return _mm256_set_m128(two_pairs(words, at, lane + 4), two_pairs(words, at, lane));
 }
 #endif
-/// @param gathers  AVX-512 gathers them; else they come one by one, which is the faster way on most machines
+/// @param gathers  AVX-512: use gathers; single loads are faster on most machines
 HWY_INLINE TexelPairs load_pairs(const std::uint32_t* words, Int index, [[maybe_unused]] bool gathers) {
 #if HWY_TARGET == HWY_AVX2
   const LaneIndices at(index.raw);
@@ -109,7 +110,7 @@ HWY_INLINE TexelPairs load_pairs(const std::uint32_t* words, Int index, [[maybe_
 #endif
 }
 
-/// component / kTexelOne, correctly rounded for 0 .. kTexelOne: a product, and what it lacks.
+/// component / kTexelOne, correctly rounded for 0 .. kTexelOne: a product and its correction.
 HWY_INLINE Float unit_component(Int component) {
   constexpr float kScale = 1.0f / kTexelOne;
   const Float whole = hn::ConvertTo(kFloat, component), quotient = hn::Mul(whole, splat(kScale));
@@ -123,8 +124,7 @@ HWY_INLINE Colors colors_of(const Texels& texels) {
            unit_component(hn::And(texels.br, lower)), unit_component(upper(texels.ga))}};
 }
 
-/// Words of 8 bits a component, none of alpha: a component's level, floor(255 c + 0.5), is that of its 16
-/// bits rounded to 8.
+/// Packed 8-bit RGB without alpha: the level floor(255 c + 0.5) is the 16-bit component rounded to 8 bits.
 HWY_INLINE Int pack_texels(const Texels& texels) {
   const Int g = hn::And(hn::Add(texels.ga, splat(0x80)), splat(0xff00));
   return hn::Or(upper_bytes_down(hn::Add(texels.br, splat(0x00800080))), g);

@@ -1,9 +1,7 @@
-// Textures as pixels see them: levels of 32-bit texels, how they are filtered, and what a texel does to a
-// colour.
+// Textures as kernels read them: levels of 32-bit texels, filters, and the texture environment.
 //
-// A level is stored with one texel more in each row, the one that follows the last under the texture's wrap,
-// and one row more after the last: the four texels of a bilinear filter are then two pairs of neighbours,
-// wherever they lie.
+// Each row of a level is padded by the texel that follows the last under the texture's wrap mode, and the
+// level by one row: the four texels of a bilinear filter are always two pairs of neighbours.
 #pragma once
 
 #include <algorithm>
@@ -20,16 +18,16 @@ inline constexpr int kMaxTextureLevels = 15;  ///< 16384 .. 1
 
 /// Texels along one side of a level, in fixed point with 16 fraction bits.
 struct TexelAxis {
-  float scale;             ///< all of them
-  std::int32_t all, last;  ///< the same, and the last one
+  float scale;             ///< number of texels
+  std::int32_t all, last;  ///< number of texels; the last texel
   explicit TexelAxis(std::int32_t texels)
       : scale(static_cast<float>(texels) * 65536.0f), all(texels * 65536), last((texels - 1) * 65536) {}
 };
 
 struct TextureLevel {
-  std::int32_t first = 0;  ///< word of texel (0, 0)
+  std::int32_t first = 0;  ///< index of texel (0, 0) in TextureLevels::words
   std::int32_t width = 1, height = 1;
-  std::int32_t stride = 0;  ///< from row to row; 0 of a single one, which is then its own neighbour
+  std::int32_t stride = 0;  ///< texels from row to row; 0 for a single row, which is then its own neighbour
   TexelAxis columns{1}, rows{1};
 
   TextureLevel() = default;
@@ -38,51 +36,50 @@ struct TextureLevel {
   std::int64_t words() const { return height > 1 ? std::int64_t{stride} * (height + 1) : width + 1; }
 };
 
-/// Where r, g, b and a stand in a texel's word.
+/// Bit offsets of r, g, b and a in a texel.
 inline constexpr int kTexelShift[4] = {16, 8, 0, 24};
 
-/// How a draw's texels are found, asked once: as nearly all textures have it, or in any way there is.
+/// Filter of a draw's texture: the common ones have kernels, `any` handles all others.
 enum class TexelFilter : std::uint8_t { nearest, linear, linear_mipmapped, any };
 
 struct TextureLevels {
-  const std::uint32_t* words = nullptr;  ///< of all levels; rows from the bottom
+  const std::uint32_t* words = nullptr;  ///< texels of all levels; rows from the bottom
   TextureLevel level[kMaxTextureLevels];
-  int last = 0;                               ///< above 0: mipmaps
-  bool mag_linear = true, min_linear = true;  ///< within a level; else the nearest texel
+  int last = 0;                               ///< last level; above 0: mipmaps
+  bool mag_linear = true, min_linear = true;  ///< bilinear within a level; else the nearest texel
   bool blends_levels = false;                 ///< mipmaps: the two nearest levels; else the nearest one
   TextureWrap wrap_s = TextureWrap::repeat, wrap_t = TextureWrap::repeat;
-  bool gathers_pairs = false;  ///< of texels: see machine_has_fast_gather()
+  bool gathers_pairs = false;  ///< machine_has_fast_gather()
 
-  /// How many texels a pixel spans decides something.
+  /// Whether the filter depends on the texels per pixel.
   bool needs_footprint() const { return last > 0 || mag_linear != min_linear; }
   TexelFilter filter() const {
     if (!needs_footprint()) return mag_linear ? TexelFilter::linear : TexelFilter::nearest;
     return mag_linear && min_linear ? TexelFilter::linear_mipmapped : TexelFilter::any;
   }
-  /// Squared texels a pixel up to which a texture is magnified: GL 2.1, 3.8.9, c is 0, or 0.5 where
-  /// magnification is the sharper filter.
+  /// Largest squared footprint, in texels per pixel, that counts as magnification [GL 2.1, 3.8.9]: c is 0, or
+  /// 0.5 if magnification is the sharper filter.
   float magnification_limit = 1;
 };
 
-/// What a draw does with its texture.
+/// The texture of a draw and its environment.
 struct DrawTexture {
   const TextureLevels* levels = nullptr;  ///< null: `texel` everywhere
   std::array<float, 4> texel{1, 1, 1, 1};
   TextureEnv function = TextureEnv::modulate;
-  bool has_alpha = false;           ///< else the texels' alpha is 1
-  std::array<float, 3> constant{};  ///< of `blend`, 0..1
-  int attribute = 0;                ///< of s; t follows it
+  bool has_alpha = false;           ///< false: the texels' alpha is 1
+  std::array<float, 3> constant{};  ///< TextureEnv::blend: 0..1
+  int attribute = 0;                ///< attribute of s; t is the next
 
-  /// A fragment's alpha may change.
+  /// Whether texels may change a fragment's alpha.
   bool changes_alpha() const { return has_alpha && function != TextureEnv::decal; }
 };
 
-/// A texel's components stand in 16 bits: the level times 256. Divided by this a level is the float nearest
-/// to it: tests compare with such.
+/// 1.0 in texel components of 16 bits, which are levels times 256. Divided by this, a level becomes the
+/// nearest float: tests compare with such values.
 inline constexpr float kTexelOne = 65280.0f;
 
-/// A colour 0..1 under a texel, by the table of OpenGL 1.5 [GL 1.5, 3.8.13]. The scalar twin of
-/// texture_env_lanes().
+/// A color 0..1 under a texel [GL 1.5, 3.8.13]. Scalar twin of texture_env_lanes().
 inline std::array<float, 4> texture_env_reference(const DrawTexture& texture, const std::array<float, 4>& f,
                                                   const std::array<float, 4>& t) {
   std::array<float, 4> c = f;

@@ -1,11 +1,11 @@
-// Texture coordinates of a triangle's pixels, and how many texels one goes by from pixel to pixel, from exact
+// Texture coordinates of a triangle's pixels, and their footprint in texels per pixel, from exact
 // derivatives.
 //
 // With weights w_k linear in the window, W their sum and N = w_1 (s_1 - s_0) + w_2 (s_2 - s_0), s = s_0 + N /
 // W, hence
 //   ds/dx = (dN/dx - (s - s_0) dW/dx) / W.
-// Along a line that is (x, y) times the slope along its length, with x^2 + y^2 = 1 [GL 2.1, equation 3.15];
-// points have no slopes.
+// Along a line the derivative is (x, y) times the slope along its length, with x^2 + y^2 = 1 [GL 2.1,
+// equation 3.15]; points have none.
 #if defined(TESSERA_SHADING_TEXTURE_COORDINATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXTURE_COORDINATES_INL_H_
 #undef TESSERA_SHADING_TEXTURE_COORDINATES_INL_H_
@@ -24,8 +24,8 @@ namespace HWY_NAMESPACE {
 /// One coordinate and its slopes, in texels of level 0.
 struct TextureAxis {
   Interpolant interpolant;
-  float dx, dy;          // of the sum of weighted differences
-  float sum_dx, sum_dy;  // of the weights' sum
+  float dx, dy;          // dN/dx, dN/dy
+  float sum_dx, sum_dy;  // dW/dx, dW/dy
 
   HWY_INLINE void set_up(const ShadedTriangle& t, int attribute, bool clamps_to_range, float texels,
                          const float (&weight_dx)[3], const float (&weight_dy)[3]) {
@@ -45,8 +45,8 @@ struct TextureCoordinates {
   HWY_NOINLINE void set_up(const ShadedTriangle& of, const Edges64* edges64, const DrawTexture& texture,
                            bool of_line, int samples) {
     triangle = &of;
-    // Of nearest texels a hair beyond the vertices is another one; and with several samples centres may be
-    // far beyond.
+    // Rounding to slightly beyond the vertices would change the nearest texel; and with several samples
+    // centers may lie far outside.
     const bool clamps_to_range =
         !of_line && (samples > 1 || !(texture.levels->mag_linear && texture.levels->min_linear));
     is_line = of_line;
@@ -63,16 +63,16 @@ struct TextureCoordinates {
     s.set_up(of, texture.attribute, clamps_to_range, static_cast<float>(level.width), weight_dx, weight_dy);
     t.set_up(of, texture.attribute + 1, clamps_to_range,
              level.height > 1 ? static_cast<float>(level.height) : 0.0f, weight_dx,
-             weight_dy);  // of a single row t has no say
+             weight_dy);  // t does not matter in a single row
     has_slopes = texture.levels->needs_footprint();
   }
 
-  /// Calls store(field, value) for the coordinates and, where they are needed, the texels gone by.
+  /// Calls store(field, value) for the coordinates and, if needed, the squared footprint.
   template <class Store>
   HWY_INLINE void at(const Barycentric& where, const Store& store) const {
     has_slopes ? at<true, true>(where, store) : at<false, true>(where, store);
   }
-  /// kClampsToRange: where set_up() has found that they are to be kept.
+  /// @param kClampsToRange  may be false only if set_up() has set no range
   template <bool kHasSlopes, bool kClampsToRange, class Store>
   HWY_INLINE void at(const Barycentric& where, const Store& store) const {
     const auto coordinate = [&](const TextureAxis& axis) HWY_ATTR {

@@ -1,4 +1,4 @@
-// Colours of a chunk of pixels under their texels. Twin: texture_env_reference() in texture.h.
+// The texture environment on a chunk of pixels. Twin: texture_env_reference() in texture.h.
 #if defined(TESSERA_SHADING_TEXTURE_ENV_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXTURE_ENV_INL_H_
 #undef TESSERA_SHADING_TEXTURE_ENV_INL_H_
@@ -13,17 +13,20 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// The most common function, without alpha.
+/// TextureEnv::modulate without alpha, the most common function.
 HWY_INLINE Colors modulated(const Colors& f, const Colors& t) {
   return {{hn::Mul(f.c[0], t.c[0]), hn::Mul(f.c[1], t.c[1]), hn::Mul(f.c[2], t.c[2]), f.c[3]}};
 }
 
+/// Alpha under a texel's.
+HWY_INLINE Float texture_env_alpha(const DrawTexture& texture, Float f, Float t) {
+  if (!texture.changes_alpha()) return f;
+  return texture.function == TextureEnv::replace ? t : hn::Mul(f, t);
+}
+
 inline HWY_NOINLINE Colors texture_env_lanes(const DrawTexture& texture, const Colors& f, const Colors& t) {
   const auto each = [&](auto component) HWY_ATTR {
-    const Float alpha = !texture.changes_alpha()                  ? f.c[3]
-                        : texture.function == TextureEnv::replace ? t.c[3]
-                                                                  : hn::Mul(f.c[3], t.c[3]);
-    return Colors{{component(0), component(1), component(2), alpha}};
+    return Colors{{component(0), component(1), component(2), texture_env_alpha(texture, f.c[3], t.c[3])}};
   };
   switch (texture.function) {
     case TextureEnv::modulate: return each([&](int k) HWY_ATTR { return hn::Mul(f.c[k], t.c[k]); });

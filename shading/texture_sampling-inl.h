@@ -1,5 +1,5 @@
-// Texels of a batch of points by their texture's filters. Coordinates become fixed point with 16 fraction
-// bits: the same bits on every instruction set.
+// Texture filters on a batch of points. Coordinates are converted to fixed point with 16 fraction bits, so
+// that the bits are the same on every instruction set.
 #if defined(TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_
 #undef TESSERA_SHADING_TEXTURE_SAMPLING_INL_H_
@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// A coordinate in the image, 0..1. Whatever is no number comes out as 0.
+/// Applies the wrap mode: a coordinate in the image, 0..1. A NaN becomes 0.
 HWY_INLINE Float wrapped(Float f, TextureWrap wrap) {
   if (wrap == TextureWrap::repeat) return clamped_below(hn::Sub(f, hn::Floor(f)));
   const Float there_and_back = neg_mul_add(splat(2.0f), hn::Floor(hn::Mul(f, splat(0.5f))), f);  // 0..2
@@ -30,21 +30,21 @@ HWY_INLINE Int nearest_texel(Float unit, const TexelAxis& axis) {
   return hn::ShiftRight<16>(hn::Min(truncate(hn::Mul(unit, splat(axis.scale))), splat(axis.last)));
 }
 
-/// The first of the two texels whose centres a coordinate lies between, and how far it is from there to the
-/// next, twice.
+/// The first of the two texels between whose centers a coordinate lies, and the fraction of the way to the
+/// next, in both halves of the lane.
 struct TexelPosition {
   Int texel, fraction;
 };
 HWY_INLINE TexelPosition bilinear_position(Float unit, const TexelAxis& axis, TextureWrap wrap) {
   Int at = hn::Sub(truncate(hn::Mul(unit, splat(axis.scale))), splat(1 << 15));
-  if (wrap == TextureWrap::repeat)  // left of the first centre one is behind the last: what is below 0 is
-                                    // large without a sign
+  // repeat: left of the first center lies the last texel. Negative values are large as unsigned ones.
+  if (wrap == TextureWrap::repeat)
     at = hn::BitCast(kInt, hn::Min(hn::BitCast(kUint, at), hn::BitCast(kUint, hn::Add(at, splat(axis.all)))));
   else at = hn::Max(hn::Min(at, splat(axis.last)), hn::Zero(kInt));
   return {hn::ShiftRight<16>(at), twice(at)};
 }
 
-/// @param words  of the level
+/// @param words  texels of the level
 HWY_INLINE Int nearest_words(const std::uint32_t* words, const TextureLevel& level, Float s, Float t) {
   const Int column = nearest_texel(s, level.columns), row = nearest_texel(t, level.rows);
   return load_words(words, hn::Add(column, hn::Mul(row, splat(level.stride))));
@@ -53,7 +53,7 @@ HWY_INLINE Texels nearest_texels(const TextureLevels& texture, const TextureLeve
   return texels_of(nearest_words(texture.words + level.first, level, s, t));
 }
 
-/// Which four texels of a level are interpolated, and by how much.
+/// The four texels of a bilinear filter, and their weights.
 struct BilinearTexels {
   const std::uint32_t* words;
   std::int32_t stride;
@@ -92,10 +92,10 @@ HWY_INLINE Texels bilinear_texels(const TextureLevels& texture, const TextureLev
 inline constexpr float kLevelCoefficients[] = {5975.88720703125f, -12489.646484375f, 16273.4267578125f,
                                                -23630.955078125f, 47260.09375f};
 
-/// The level of detail of minified points with 16 fraction bits, of others 0; whole where levels are not
-/// blended. GL 2.1, 3.8.8.
+/// Level of detail with 16 fraction bits; 0 for magnified points; a whole number unless levels are blended
+/// [GL 2.1, 3.8.8].
 HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
-  // The footprint is squared. Of numbers that are not positive comes something finite.
+  // The footprint is squared. Numbers that are not positive give some finite level.
   const Int bits = hn::BitCast(kInt, footprint);
   Int level;
   if (texture.blends_levels) {
@@ -107,7 +107,7 @@ HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
     for (int k = 1; k < 5; ++k) sum = mul_add(sum, above_one, splat(kLevelCoefficients[k]));
     level = hn::Add(truncate(hn::Mul(sum, above_one)), hn::ShiftLeft<15>(exponent));
   } else {
-    // Level d is that of 2^(2d - 1), exclusive, to 2^(2d + 1), inclusive.
+    // Level d serves squared footprints in (2^(2d - 1), 2^(2d + 1)].
     const Int exponent = hn::Sub(hn::ShiftRight<23>(hn::Sub(bits, splat(1))), splat(127));
     level = hn::ShiftLeft<16>(hn::ShiftRight<1>(hn::Add(exponent, splat(1))));
   }
@@ -116,7 +116,7 @@ HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
                             within);
 }
 
-/// Chunks all of whose points are at one level, or between it and the next smaller one.
+/// Chunks whose points all lie at one level, or between it and the next smaller one.
 template <int kChunks>
 HWY_INLINE void mipmapped_linear_texels(const TextureLevels& texture, int level,
                                         const Int (&level_of)[kChunks], const Float (&s)[kChunks],
@@ -147,11 +147,11 @@ HWY_INLINE Texels mipmapped_nearest_texels(const TextureLevels& texture, int lev
              : larger;
 }
 
-/// Points of one chunk at whatever levels they have: one pass for each of those, nearly always one or two.
+/// One chunk whose points may have different levels: one pass per level, nearly always one or two.
 inline HWY_NOINLINE Texels texels_from_levels(const TextureLevels& texture, Float s, Float t,
                                               Float footprint) {
   const auto minified = hn::RebindMask(kInt, hn::Gt(footprint, splat(texture.magnification_limit)));
-  // Magnified points are points of level 0 like others, unless they have a filter of their own.
+  // Magnified points use level 0 like others, unless their filter differs.
   const bool apart = texture.mag_linear != texture.min_linear;
   Texels all{hn::Zero(kInt), hn::Zero(kInt)};
   if (apart && !hn::AllTrue(kInt, minified))
@@ -172,9 +172,10 @@ inline HWY_NOINLINE Texels texels_from_levels(const TextureLevels& texture, Floa
   return all;
 }
 
-/// What the points of some chunks see of a texture with levels, coordinates as they come. Each step is taken
-/// for all chunks before the next: few of one chunk's can run beside each other.
-/// @param footprint  squared texels a pixel spans, where that decides anything
+/// Filtered texels of several chunks. Each step runs for all chunks before the next, because the steps of one
+/// chunk depend on each other.
+/// @param s, t       coordinates before wrapping
+/// @param footprint  squared texels per pixel, if needed
 template <TexelFilter kFilter, int kChunks>
 HWY_INLINE void texels_where(const TextureLevels& texture, Float (&s)[kChunks], Float (&t)[kChunks],
                              const Float (&footprint)[kChunks], Texels (&texels)[kChunks]) {
@@ -200,7 +201,7 @@ HWY_INLINE void texels_where(const TextureLevels& texture, Float (&s)[kChunks], 
   }
 }
 
-/// Calls run.operator()<filter>() for the texture's.
+/// Calls run.operator()<kFilter>() for the texture's filter.
 template <class Run>
 HWY_INLINE void with_filter(const TextureLevels& texture, const Run& run) {
   switch (texture.filter()) {
@@ -211,7 +212,7 @@ HWY_INLINE void with_filter(const TextureLevels& texture, const Run& run) {
   }
 }
 
-/// Texels of the first `count` points, whole blocks of them.
+/// Samples the texture at the first `count` points, whole blocks.
 inline HWY_NOINLINE void sample_texture_lanes(const TextureLevels& texture, ShadingBatch& batch, int count) {
   with_filter(texture, [&]<TexelFilter kFilter>() HWY_ATTR {
     for (int first = 0; first < count; first += kBlockPixels) {
@@ -234,7 +235,7 @@ inline HWY_NOINLINE void sample_texture_lanes(const TextureLevels& texture, Shad
   });
 }
 
-/// What a chunk's points see of a texture. @pre sample_texture_lanes, where it has levels
+/// Texels of one chunk. @pre sample_texture_lanes(), if the texture has levels
 HWY_INLINE Colors texels_at(const DrawTexture& texture, const ShadingBatch& batch, int point) {
   Colors texel;
   for (int c = 0; c < 4; ++c)

@@ -30,7 +30,7 @@ void accumulate_tile(const TileAccumulation& command, const PixelRect& rect, int
     return give_back(command, rect, tile_x, tile_y, tile_size, color, levels);
   if (rect == PixelRect{0, 0, tile_size, tile_size})
     return command.arithmetic.run(color, levels, tile_size * tile_size);
-  // What of a row lies in one block stands side by side.
+  // Pixels of a row that lie in one block are adjacent.
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0, end = 0; x < rect.x1; x = end) {
       end = std::min(x / kBlockSize * kBlockSize + kBlockSize, rect.x1);

@@ -1,4 +1,4 @@
-// A command of the accumulation buffer, on one tile.
+// An operation of the accumulation buffer on one tile.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ struct TileAccumulation {
   std::uint32_t before_draw = 0, after_clears = 0;
   PixelRect rect;  ///< raster space
   Accumulation arithmetic;
-  std::uint32_t write_mask = 0xffffffffu;  ///< give_back: of the colour word's bits
-  FragmentOps dither;                      ///< give_back: its thresholds
+  std::uint32_t write_mask = 0xffffffffu;  ///< return_color: bits of the packed color that change
+  FragmentOps dither;                      ///< return_color: its thresholds
 };
 
 /// @param rect    the pixels, tile-relative
 /// @param tile_x, tile_y  the tile's top left pixel, raster space
-/// @param color, levels   of the tile, in tile order
+/// @param color, levels   the tile's, in tile order
 void accumulate_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y,
                      int tile_size, std::uint32_t* color, const AccumulatedPixels& levels);
 

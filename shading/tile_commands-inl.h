@@ -1,4 +1,4 @@
-// What a tile does between draws: clears, and commands of the accumulation buffer.
+// Commands between draws: clears, and operations of the accumulation buffer.
 #if defined(TESSERA_SHADING_TILE_COMMANDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TILE_COMMANDS_INL_H_
 #undef TESSERA_SHADING_TILE_COMMANDS_INL_H_
@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "shading/deferred_shading_msaa-inl.h"
+#include "shading/draw_functions-inl.h"
 #include "shading/resolve-inl.h"
 #include "shading/tile_accumulation.h"
 #include "shading/tile_renderer.h"
@@ -29,8 +29,8 @@ void fill_rect(Word* pixels, Word word, const PixelRect& rect, int tile_size) {
     for (int x = rect.x0; x < rect.x1; ++x) pixels[tile_index(x, y, tile_size)] = word;
 }
 
-/// What of a rectangle lies in the tile, tile-relative; the tile's part beyond the frame buffer counts as
-/// inside where the rectangle reaches the edge, so that whole tiles stay whole.
+/// The part of a rectangle in the tile, tile-relative. If the rectangle reaches the frame buffer's right or
+/// bottom edge it extends to the tile's, so that whole tiles stay whole.
 inline PixelRect rect_in_tile(const PixelRect& rect, const TileGrid& grid, int tile_x, int tile_y) {
   const int right = rect.x1 == grid.width_px ? tile_x + grid.tile_size : rect.x1;
   const int bottom = rect.y1 == grid.height_px ? tile_y + grid.tile_size : rect.y1;

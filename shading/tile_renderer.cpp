@@ -1,5 +1,4 @@
-// Renders a tile: clears, draws and commands of the accumulation buffer in the order in which they were
-// recorded.
+// Renders a tile: clears, draws and commands of the accumulation buffer, in the order of recording.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/tile_renderer.cpp"
 #include "framebuffer/lanes.h"
@@ -16,8 +15,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Where the samples of the tile's pixels stand, with what the tile holds. Without triangles they would all
-/// be the same: one does.
+/// Sets up the attachments of the samples and loads them from the tile. A tile without primitives needs one
+/// sample only: all would be equal.
 void load_samples(TileContext& context, int tile) {
   TileWorkspace::Memory& memory = context.memory;
   const TileFrame& frame = context.frame;
@@ -60,7 +59,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
   memory.edges64.clear();
   if (!memory.visibility_clean)
     std::fill(std::begin(memory.visibility), std::end(memory.visibility), kNoTriangle);
-  memory.visibility_clean = false;  // until the end of the tile
+  memory.visibility_clean = false;  // if rendering stops early
   load_samples(context, tile);
 
   std::uint32_t next_clear = 0, next_accumulation = 0;
@@ -69,7 +68,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
     while (next_clear < end && frame.clears[next_clear].before_draw <= draw)
       run_clear(context, frame.clears[next_clear++]);
   };
-  // All that was drawn before has been flushed.
+  // @pre draws before it have been flushed
   const auto commands_before = [&](std::uint32_t draw) {
     while (next_accumulation < frame.accumulation_count &&
            frame.accumulations[next_accumulation].before_draw <= draw) {
@@ -81,10 +80,9 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
   };
   for (std::uint32_t b = frame.batches->next(tile, 0); b < frame.batches->count();) {
     if (frame.batches->is_streamed())
-      shade_whole_tile(context);  // triangles that were seen refer to the batch before
+      shade_whole_tile(context);  // collected triangles refer to the previous batch
     const Bins& bins = frame.batches->read(b);
-    // Other cores binned most of the batches, and a list is a chain: what comes next is fetched while the
-    // block before it is worked on.
+    // Other cores wrote most of the batches, and bins are linked lists: prefetch one block ahead.
     const std::uint32_t following = frame.batches->next(tile, b + 1);
     const Bins* const ahead = frame.batches->peek(following);
     if (ahead != nullptr) ahead->prefetch_first(tile);
@@ -108,7 +106,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
         }
       }
     }
-    // Groups go on in the next batch, if this one is still there.
+    // A group may continue in the next batch if this one stays in memory.
     frame.batches->is_streamed() ? builder.flush(bins) : builder.release_bins(bins);
     b = following;
   }
@@ -128,45 +126,6 @@ HWY_AFTER_NAMESPACE();
 namespace tessera::detail {
 
 RenderTile* render_tile(InstructionSet isa) { return TESSERA_KERNEL(isa, render_tile_lanes); }
-
-TileWorkspace::TileWorkspace() : memory_(std::make_unique<Memory>()) {
-  // A group is added before the next look at the limit. Rendering a tile allocates nothing.
-  memory_->visible_triangles.reserve(kVisibleTriangleCapacity);
-  memory_->edges64.reserve(kVisibleTriangleCapacity);
-  allocate_colors(1);
-}
-TileWorkspace::~TileWorkspace() = default;
-TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;
-std::uint32_t* TileWorkspace::color() { return memory_->color; }
-std::uint32_t* TileWorkspace::select_color(std::size_t tile) {
-  return memory_->color = memory_->colors[tile].packed;
-}
-std::int32_t* TileWorkspace::depth() { return memory_->depth; }
-std::int32_t* TileWorkspace::stencil() { return memory_->stencil->value; }
-const std::uint32_t* TileWorkspace::sample_color(int sample) const { return memory_->samples->color[sample]; }
-AccumulatedPixels TileWorkspace::accumulation() { return memory_->levels(); }
-float* TileWorkspace::normals(int component) { return memory_->normals->component[component]; }
-void TileWorkspace::allocate_colors(int tiles) {
-  if (memory_->colors.size() >= static_cast<std::size_t>(tiles)) return;
-  memory_->colors.resize(static_cast<std::size_t>(tiles));
-  select_color(0);
-}
-void TileWorkspace::allocate_normals() {
-  if (!memory_->normals) memory_->normals = std::make_unique<TileNormals>();
-}
-
-void TileWorkspace::allocate_samples() {
-  if (memory_->samples) return;
-  memory_->samples = std::make_unique_for_overwrite<TileSamples>();
-  memory_->samples->clean_samples = memory_->samples->clean_pixels = 0;
-}
-
-void TileWorkspace::allocate_stencil() {
-  if (!memory_->stencil) memory_->stencil = std::make_unique<TileStencil>();
-}
-void TileWorkspace::allocate_accumulation() {
-  if (!memory_->accumulation) memory_->accumulation = std::make_unique<TileLevels>();
-}
 
 std::uint32_t pack_color_or_index(const ColorLayout& layout, const PaletteSearch* search, float r, float g,
                                   float b, float a) {

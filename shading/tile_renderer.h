@@ -1,5 +1,5 @@
-// Renders one tile: its bins' triangles in order -> coverage -> depth -> colour, in tile memory. Knows no
-// threads.
+// Renders one tile: the primitives of its bins in order -> coverage -> depth -> color, in tile memory, on the
+// calling thread.
 #pragma once
 
 #include <array>
@@ -16,100 +16,105 @@
 #include "raster/triangle_setup.h"
 #include "shading/fragment_ops.h"
 #include "shading/lighting.h"
+#include "shading/pixel_path.h"
 #include "shading/texture.h"
 #include "shading/tile_accumulation.h"
 
 namespace tessera::detail {
 
-/// How the colour of a draw's pixels comes about.
+/// Source of the colors of a draw's pixels.
 enum class ColorSource : std::uint8_t {
-  none,                 ///< no colour plane changes: depth alone
-  constant,             ///< one word for the whole draw
-  per_vertex_packed,    ///< a word for each vertex; a triangle has its provoking vertex's (flat)
-  per_triangle_packed,  ///< a word for each triangle (flat, by face normals)
+  none,                 ///< no color plane changes
+  constant,             ///< one color for the draw
+  per_vertex_packed,    ///< flat: the packed color of the provoking vertex
+  per_triangle_packed,  ///< flat: the packed color of the triangle
   interpolated,         ///< colours interpolated from the vertices (Gouraud)
   per_pixel,            ///< lit at each pixel (Phong)
-  texels                ///< an image's own
+  texels                ///< the texels of an image
 };
 
-/// What the tiles need of a draw. Pointers are the frame's.
+/// A draw as tiles see it. Pointers refer to memory of the frame.
 struct TileDraw {
+  PixelPath path;  ///< choose_pixel_path() of what follows
+
   Topology topology = Topology::triangles;
   const WindowVertex* vertices = nullptr;
   const std::uint32_t* indices = nullptr;  ///< null: vertices in order
-  const float* attributes = nullptr;       ///< attribute_stride floats for each vertex; behind the last one
-                                           ///< kAttributePadding more may be read
-  int attribute_stride = 0, attribute_count = 0;
-  int provoking = 2;        ///< corner of each element: point, line or triangle
-  int element_corners = 3;  ///< edges and corners of polygons are parts of triangles
-  float size = 1;           ///< of points in pixels, or the lines' width
+  /// attribute_stride floats per vertex; kAttributePadding floats after the last one are readable.
+  const float* attributes = nullptr;
+  int attribute_stride = 0;
+  int attribute_count = 0;  ///< inputs of lighting, or colors
+  int provoking = 2;        ///< corner of the element whose vertex gives flat colors
+  int element_corners = 3;  ///< corners per element of the mesh: 3 also for edges and corners of polygons
+  float size = 1;           ///< points: diameter, lines: width; pixels
   PixelRect rect;           ///< scissor, viewport and frame buffer, raster space
   bool front_is_clockwise = false;
-  const Facing* facing =
-      nullptr;  ///< of each triangle, where it is its polygon's; null: its own area decides
-  std::uint32_t primitive_triangles = 1;  ///< that each primitive was split into
+  /// Per triangle: the facing of its polygon; null: the sign of the triangle's area decides.
+  const Facing* facing = nullptr;
+  std::uint32_t primitive_triangles = 1;  ///< triangles per primitive of the mesh
 
   bool uses_depth = false, depth_write = true;
   Compare depth_test = Compare::less;
 
   ColorSource source = ColorSource::constant;
-  std::uint32_t write_mask = 0xffffffffu;      ///< of the colour word's bits
+  std::uint32_t write_mask = 0xffffffffu;      ///< bits of the packed color that change
   std::uint32_t packed_color = 0;              ///< constant
-  const std::uint32_t* packed_colors[2] = {};  ///< per_vertex_packed, per_triangle_packed: front, back
-  /// interpolated: attribute of r, or of the index, for front and back faces; the next two are g and b.
-  /// Already scaled to levels, with the half that rounds, if scaled_colors; else 0..1.
+  const std::uint32_t* packed_colors[2] = {};  ///< per_vertex_packed, per_triangle_packed; per face
+  /// interpolated, per face: attribute of r, or of the index; the next two are g and b. In levels, with the
+  /// half that rounds, if scaled_colors; else 0..1.
   int color_attribute[2] = {0, 0};
   bool scaled_colors = true;
-  bool index[2] = {};     ///< front, back: the colour is a single float, a masked index
-  bool deferred = false;  ///< shade once for each visible pixel. @pre set without `ops` if pixels have
-                          ///< several samples, for per_pixel, and for interpolated under a mask
-  /// per_pixel: programs for front and back, and which batch field each attribute goes to, from
-  /// first_attribute on.
+  bool index[2] = {};  ///< per face: the color is one float, a masked index
+  /// Shade each visible pixel once. @pre set without `ops` if pixels have several samples, for per_pixel, and
+  /// for interpolated under a mask
+  bool deferred = false;
+  /// per_pixel: programs per face, and the batch field of each attribute from first_attribute on.
   const LightingProgram* programs[2] = {};
   int first_attribute = 0;
   std::uint8_t fields[kMaxAttributes] = {};
-  const DrawTexture* texture =
-      nullptr;  ///< or none. @pre with one, set `deferred` or `ops`; the colours are neither scaled nor words
-  bool captures_normals = false;  ///< per_pixel: the normals go to the workspace's normals(), too
+  /// Null: none. @pre with one, `deferred` or `ops` is set, and colors are neither in levels nor packed
+  const DrawTexture* texture = nullptr;
+  bool captures_normals = false;  ///< per_pixel: normals go to the workspace's normals(), too
 
-  /// What its fragments go through besides the depth test; null: nothing, and what follows is not looked at.
+  /// Fragment operations besides the depth test; null: none, and most of the fields below are ignored.
   const FragmentOps* ops = nullptr;
-  bool plain_colors = false;  ///< colours are what they would be without `ops`. @pre these are a stencil test
-                              ///< alone, without offset or samples, of untextured triangles
-  bool flat = false;          ///< interpolated: a triangle has the colour of its provoking vertex, or its own
-  const float* face_colors[2] =
-      {};  ///< flat: r g b a, or an index, for each triangle, front and back; null: the vertex's
-  std::array<float, 4> color[2] = {};  ///< constant, also of a texture: front, back
-  int alpha_attribute[2] = {-1, -1};   ///< interpolated alpha for front and back faces; -1: `alpha`
-  float alpha[2] = {1, 1};
-  float offset_factor = 0, offset_units = 0;  ///< of depth, in polygon slopes and smallest differences
-  const double* depth_offsets = nullptr;      ///< what they come to of each triangle's polygon
-                                          ///< (raster/polygon_offset.h); null, or NaN: a triangle has its own
+  /// Colors are what they would be without `ops`. @pre `ops` are a stencil test alone, of untextured
+  /// triangles with one sample and without offset
+  bool plain_colors = false;
+  bool flat = false;  ///< interpolated: but one color per triangle, its own or its provoking vertex's
+  /// flat, per face: r g b a, or an index, per triangle; null: the provoking vertex's.
+  const float* face_colors[2] = {};
+  std::array<float, 4> color[2] = {};         ///< constant, also under a texture; per face
+  int alpha_attribute[2] = {-1, -1};          ///< interpolated alpha, per face; -1: `alpha`
+  float alpha[2] = {1, 1};                    ///< per face
+  float offset_factor = 0, offset_units = 0;  ///< polygon offset [GL 2.1, 3.5.5]
+  /// Depth offset of each triangle's polygon (raster/polygon_offset.h); null, or NaN for a triangle: computed
+  /// from the triangle.
+  const double* depth_offsets = nullptr;
   enum class IdOutput : std::uint8_t {
     none,
     draw,
     primitive
-  } id_output = IdOutput::none;  ///< packed colors are `packed_color`, or the primitive's number
+  } id_output = IdOutput::none;  ///< for captures: colors are `packed_color`, or the primitive's number
 
-  /// A bitmap or an image, in place of triangles: constant, texels, none, or a number's words. @pre not
-  /// deferred, without offset
+  /// A bitmap or an image in place of triangles. @pre not deferred, without offset
   const PixelRectangle* texels = nullptr;
-  std::int32_t depth_key = 0;  ///< of all its pixels
+  std::int32_t depth_key = 0;  ///< depth of its pixels
 };
 
-/// A clear inside a frame, in words; before draw `before_draw`.
+/// A clear inside a frame, in stored values; runs before draw `before_draw`.
 struct TileClear {
   std::uint32_t before_draw = 0;
   bool color = false, depth = false, stencil = false, accumulation = false;
   std::uint32_t packed_color = 0;
-  bool dithered = false;                                         ///< the words of `pattern` in place of that
+  bool dithered = false;                                         ///< `pattern` replaces packed_color
   std::array<std::uint32_t, kDitherSize * kDitherSize> pattern;  ///< by raster row and column, repeated
   std::int32_t depth_key = 0, stencil_value = 0;
   AccumulatedPixel accumulation_levels{};
   PixelRect rect;
 };
 
-/// What all tiles of a frame share.
+/// State that all tiles of a frame share.
 struct TileFrame {
   TileGrid grid;
   ColorLayout layout;
@@ -121,16 +126,18 @@ struct TileFrame {
   std::uint32_t clear_count = 0;
   const TileAccumulation* accumulations = nullptr;
   std::uint32_t accumulation_count = 0;
-  const BinBatches* batches = nullptr;  ///< @pre tiles are looked through there before they are rendered
-  bool shade_immediately =
-      false;        ///< shade after each triangle, with several samples after each group of them
-  int samples = 1;  ///< 1, 4 or 8 coverage samples a pixel
-  /// Samples start from what the workspace holds of the buffer; else a command replaces all of it before it
-  /// is looked at.
+  const BinBatches* batches = nullptr;  ///< @pre index_batches() has run for the tile
+  /// Shade after each triangle; with several samples, after each group of them.
+  bool shade_immediately = false;
+  int samples = 1;  ///< coverage samples per pixel: 1, 4 or 8
+  /// Samples start from the buffer's contents in the workspace. If not set, a command overwrites all of the
+  /// buffer before it is read.
   bool loads_color = false, loads_depth = false, loads_stencil = false;
 };
 
-/// Words to the frame's layout from colours 0..1; alpha where it has planes.
+PixelPathFrame pixel_path_frame(const TileFrame& frame, InstructionSet isa);
+
+/// The color 0..1, packed to the frame's layout; alpha only if the layout stores it.
 std::uint32_t pack_color_or_index(const ColorLayout& layout, const PaletteSearch* search, float r, float g,
                                   float b, float a = 1);
 
@@ -139,7 +146,7 @@ struct TileCounts {
   bool touched = false;
 };
 
-/// A worker's memory: one tile's pixels and the triangles seen in it. Reused from tile to tile.
+/// Memory of one worker: the pixels of a tile and its visible triangles. Reused from tile to tile.
 class TileWorkspace {
  public:
   TileWorkspace();
@@ -147,19 +154,19 @@ class TileWorkspace {
   TileWorkspace(TileWorkspace&&) noexcept;
   struct Memory;
   Memory& memory() { return *memory_; }
-  std::uint32_t* color();  ///< tile_size^2 words in tile order, of the tile that is selected, which is the
-                           ///< last one for that select_color() was called; else tile 0
-  /// From now on tiles are rendered into these words; those of other tiles stay. @pre allocate_colors, but
-  /// for tile 0
+  /// tile_size^2 packed colors of the selected tile, in tile order. Tile 0 is selected at first.
+  std::uint32_t* color();
+  /// Selects the colors of a tile for rendering; those of other tiles are kept. @pre allocate_colors(),
+  /// except for tile 0
   std::uint32_t* select_color(std::size_t tile);
   std::int32_t* depth();    ///< depth keys
-  std::int32_t* stencil();  ///< stencil values. @pre allocate_stencil
-  /// Words of one sample of the tile rendered last, in tile order. @pre several samples, and a triangle in
-  /// the tile
+  std::int32_t* stencil();  ///< stencil values. @pre allocate_stencil()
+  /// Packed colors of one sample of the last tile, in tile order. @pre several samples, and the tile had
+  /// triangles
   const std::uint32_t* sample_color(int sample) const;
-  AccumulatedPixels accumulation();  ///< levels, in tile order. @pre allocate_accumulation
-  float* normals(
-      int component);  ///< of pixels of draws that capture them, in tile order. @pre allocate_normals
+  AccumulatedPixels accumulation();  ///< levels, in tile order. @pre allocate_accumulation()
+  /// Normals of pixels of draws that capture them, in tile order. @pre allocate_normals()
+  float* normals(int component);
   /// These throw std::bad_alloc.
   void allocate_colors(int tiles);
   void allocate_normals();
@@ -171,9 +178,11 @@ class TileWorkspace {
   std::unique_ptr<Memory> memory_;
 };
 
-/// Runs the frame's commands on one tile. The buffers they look at must hold what was there before, unless a
-/// command that replaces all of the tile comes first. Of several samples the workspace's colour then holds
-/// the mean, its depth and stencil those of the first.
+/// Runs the frame's commands on one tile.
+/// - @pre the workspace holds the previous contents of buffers that are read before a command overwrites
+/// them.
+/// - With several samples the workspace's color is their mean afterwards, its depth and stencil those of
+/// sample 0.
 using RenderTile = TileCounts(const TileFrame& frame, int tile, TileWorkspace& workspace);
 RenderTile* render_tile(InstructionSet isa);
 

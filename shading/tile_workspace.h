@@ -1,4 +1,4 @@
-// The memory that a worker renders tiles in.
+// Memory in which a worker renders tiles.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@
 namespace tessera::detail {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
-/// Triangles that a tile collects before it shades them: bounds the memory, changes no bit.
+/// Maximum number of triangles that a tile collects before it shades them. Bounds memory; changes no bit.
 inline constexpr std::size_t kMaxVisibleTriangles = 1024;
-inline constexpr std::size_t kVisibleTriangleCapacity =
-    kMaxVisibleTriangles + kGroupSize;  ///< with the group in which it gets there
+/// The limit is checked after each group.
+inline constexpr std::size_t kVisibleTriangleCapacity = kMaxVisibleTriangles + kGroupSize;
 
 struct alignas(64) TileNormals {
   float component[3][kMaxTileSize * kMaxTileSize];
@@ -27,28 +27,28 @@ struct alignas(64) TileStencil {
   std::int32_t value[kMaxTileSize * kMaxTileSize];
 };
 
-/// The pixels that draws work on: of the tile, or of one of its samples.
+/// Pixels that draws work on: the tile's, or those of one sample.
 struct TileAttachments {
   std::uint32_t* color;
   std::int32_t* depth;
-  std::uint32_t* visibility;  ///< triangles seen and not shaded yet; kNoTriangle elsewhere
-  std::int32_t* stencil;      ///< null where the frame has none
+  std::uint32_t* visibility;  ///< visibility buffer: triangles not shaded yet; kNoTriangle elsewhere
+  std::int32_t* stencil;      ///< null if the frame has none
 };
 
-/// What a tile's samples hold. Depth, visibility and stencil of sample 0 are the tile's own.
+/// Attachments of a tile's samples. Depth, visibility and stencil of sample 0 are those of the tile.
 struct alignas(64) TileSamples {
-  /// Five cache lines more than a tile: the same pixel of two samples falls into different sets of a cache.
+  /// Five cache lines more than a tile, so that the samples of a pixel map to different cache sets.
   static constexpr int kStride = kMaxTileSize * kMaxTileSize + 80;
   std::uint32_t color[kMaxSamples][kStride];
   std::int32_t depth[kMaxSamples][kStride];
   std::uint32_t visibility[kMaxSamples][kStride];
   std::int32_t stencil[kMaxSamples][kStride];
-  TriangleGroup
-      group[kMaxSamples];  ///< moved the other way: of wide triangles, and for draws with operations
+  /// The group, moved by the opposite of each sample's offset: for wide triangles and draws with operations.
+  TriangleGroup group[kMaxSamples];
   SampleGroup samples32;
-  std::int32_t hiz_max[kMaxTileSize * kMaxTileSize /
-                       kBlockPixels];       ///< no depth key of a sample in the block is greater
-  int clean_samples = 0, clean_pixels = 0;  ///< so much of `visibility` is kNoTriangle
+  /// Hierarchical z, per block: upper bound of the samples' depth keys.
+  std::int32_t hiz_max[kMaxTileSize * kMaxTileSize / kBlockPixels];
+  int clean_samples = 0, clean_pixels = 0;  ///< part of `visibility` that is known to be kNoTriangle
 
   TileAttachments of(int sample, bool has_stencil) {
     return {color[sample], depth[sample], visibility[sample], has_stencil ? stencil[sample] : nullptr};
@@ -59,16 +59,16 @@ struct alignas(64) TileLevels {
   std::int32_t component[4][kMaxTileSize * kMaxTileSize];
 };
 
-/// The blocks that a point or line touches. Between two of them all is zero.
+/// Blocks that a point or line touches. All zero between two elements.
 struct TouchedBlocks {
   static constexpr int kBlocks = kMaxTileSize * kMaxTileSize / kBlockPixels;
   int count = 0;
   std::uint16_t list[kBlocks];
-  std::uint32_t samples[kBlocks] = {};            ///< that have bits
-  std::uint16_t bits[kMaxSamples][kBlocks] = {};  ///< of the pixels
+  std::uint32_t samples[kBlocks] = {};            ///< samples with covered pixels, one bit each
+  std::uint16_t bits[kMaxSamples][kBlocks] = {};  ///< covered pixels
 };
 
-/// A pixel behind those of a tile: what is stored there nobody sees.
+/// A pixel after those of the tile. Kernels redirect masked stores to it.
 inline constexpr int kDiscardPixel = kMaxTileSize * kMaxTileSize;
 
 struct alignas(64) TileColors {
@@ -76,27 +76,26 @@ struct alignas(64) TileColors {
 };
 
 struct alignas(64) TileWorkspace::Memory {
-  std::uint32_t* color = nullptr;  ///< of the tile that is rendered: one of `colors`
+  std::uint32_t* color = nullptr;  ///< current tile: one of `colors`
   alignas(64) std::int32_t depth[kDiscardPixel + 1];
-  alignas(64) std::uint32_t
-      visibility[kMaxTileSize * kMaxTileSize];  ///< triangles seen and not shaded yet; kNoTriangle elsewhere
-  bool visibility_clean = false;                ///< every id is kNoTriangle: shading leaves them so
+  alignas(64) std::uint32_t visibility[kMaxTileSize * kMaxTileSize];
+  bool visibility_clean = false;  ///< all of `visibility` is kNoTriangle, as shading leaves it
   std::vector<ShadedTriangle> visible_triangles;
   std::vector<Edges64> edges64;
   TriangleGroup group;
-  // Of the group's triangles.
+  // Per triangle of the group.
   const float* attributes[3][kGroupSize];
   std::uint32_t source[kGroupSize];
   ShadingBatch batch;
-  // Of the triangles that were collected, while they are shaded.
+  // Per collected triangle, while they are shaded.
   TriangleInterpolants interpolants[kVisibleTriangleCapacity];
   std::int32_t surfaces[kVisibleTriangleCapacity];
   TouchedBlocks touched;
   std::vector<TileColors> colors;
-  std::unique_ptr<TileNormals> normals;      ///< only where a capture wants them
-  std::unique_ptr<TileStencil> stencil;      ///< only where a draw or clear has it
-  std::unique_ptr<TileSamples> samples;      ///< only where a frame has several for each pixel
-  std::unique_ptr<TileLevels> accumulation;  ///< only where a command works on it
+  std::unique_ptr<TileNormals> normals;      ///< for captures
+  std::unique_ptr<TileStencil> stencil;      ///< null if the frame has none
+  std::unique_ptr<TileSamples> samples;      ///< with several samples per pixel
+  std::unique_ptr<TileLevels> accumulation;  ///< for commands of the accumulation buffer
 
   AccumulatedPixels levels() {
     return {accumulation->component[0], accumulation->component[1], accumulation->component[2],

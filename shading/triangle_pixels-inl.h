@@ -1,4 +1,4 @@
-// A triangle's way through the blocks of a tile: coverage, stencil, depth, and colour at once or later.
+// Pixels of one triangle: coverage, stencil, depth, and the color or the visibility buffer.
 #if defined(TESSERA_SHADING_TRIANGLE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TRIANGLE_PIXELS_INL_H_
 #undef TESSERA_SHADING_TRIANGLE_PIXELS_INL_H_
@@ -10,16 +10,17 @@
 #include <cmath>
 
 #include "raster/coverage-inl.h"
+#include "shading/color_eval-inl.h"
 #include "shading/fragment_ops-inl.h"
 #include "shading/fragment_scalar.h"
-#include "shading/pixel_paths-inl.h"
+#include "shading/no_depth-inl.h"
 #include "shading/tile_context-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// The colour of a pixel that is visible, where it is interpolated.
+/// Evaluator of interpolated colors.
 template <ColorWrite kColorWrite>
 struct ColorEvalFor {
   using Type = GouraudColorEval;
@@ -29,12 +30,12 @@ struct ColorEvalFor<ColorWrite::blended> {
   using Type = BlendedColorEval;
 };
 
-/// The stencil test of one face's pixels, one by one.
+/// Stencil test of single pixels of one face.
 struct PixelStencil {
   StencilTestConstants steps{};
   std::int32_t* values = nullptr;
 
-  /// Whether a pixel passes; what fails is stored.
+  /// Returns whether the pixel passes. Stores the result of a failure.
   HWY_INLINE bool passes(int index) const {
     const bool does = steps.passes(values[index]);
     if (!does) store(index, steps.fail);
@@ -59,7 +60,7 @@ HWY_INLINE PixelStencil pixel_stencil(const TileContext& context, const TileDraw
           .values = context.sample[0].stencil};
 }
 
-/// One triangle's way through the blocks of a tile.
+/// Functor for for_each_block(), or for single pixels of a small triangle.
 template <class Depth, DepthTestPath kDepthTest, ColorWrite kColorWrite>
 struct TrianglePixels {
   static constexpr bool kMayTestStencil = kDepthTest == DepthTestPath::generic;
@@ -74,12 +75,12 @@ struct TrianglePixels {
   std::int32_t id = 0;
   const bool tests_stencil;
   PixelStencil stencil{};
-  std::uint32_t visible_pixels = 0;  // of those with a colour
-  Int visible = hn::Zero(kInt);      // of those that wait for one: not 0 in the lanes that saw any
-  Int writable, depth_writable;      // masks, so that there is nothing to branch on
+  std::uint32_t visible_pixels = 0;  // unless deferred
+  Int visible = hn::Zero(kInt);      // deferred: nonzero lanes have a visible pixel
+  Int writable, depth_writable;      // masks, to avoid branches
   const bool needs_scissor;          // the draw's rectangle cuts through blocks
   const bool writes_all_planes;
-  const bool stores_full;  // full blocks without any mask
+  const bool stores_full;  // full blocks are stored without tests or masks
 
   HWY_INLINE TrianglePixels(TileContext& tile_context, const TileDraw& tile_draw, const Edges32& tile_edges_,
                             const ShadedTriangle& shaded, bool back)
@@ -97,18 +98,18 @@ struct TrianglePixels {
     if (tests_stencil) stencil = pixel_stencil(context, draw, back);
   }
 
-  /// A block that is not full.
+  /// A partly covered block.
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
     static_assert(!kFull);  // those come by rows
     if constexpr (kColorWrite == ColorWrite::blended) rare_block(bx, by, block_edges);
     else draw_chunks<false>(bx, by, context.block_index(bx, by), depth.block(bx, by), block_edges);
   }
-  /// Once, where code is long and such blocks are few.
+  /// Not inlined: the code is long and such blocks are few.
   HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) {
     draw_chunks<false>(bx, by, context.block_index(bx, by), depth.block(bx, by), block_edges);
   }
-  /// Blocks side by side, all of whose pixels are inside.
+  /// A row of full blocks.
   HWY_INLINE void full_row(int bx, int by, int count, const BlockEdges& first) {
     int index = context.block_index(bx, by);
     RowEdges row_edges(edges, first);
@@ -128,7 +129,7 @@ struct TrianglePixels {
       depth.step_right(block_depth);
     }
   }
-  // The same without any test or mask: one word, and whatever there is at each pixel.
+  // full_row() without tests and masks: one packed color, and evaluated colors.
   HWY_INLINE void fill_blocks(int index, int count) const {
     auto* const first = reinterpret_cast<std::int32_t*>(context.color + index);
     for (int i = 0; i < kBlockPixels * count; i += kLanes) hn::Store(splat(packed_color), kInt, first + i);
@@ -172,7 +173,7 @@ struct TrianglePixels {
       if (kMayTestStencil && tests_stencil && stencil.steps.writes())
         hn::Store(stencil_result(stencil.steps, stencil_before, failed, hn::AndNot(mask, passed), mask), kInt,
                   stencil.values + index);
-      // Cheap colours are blended in without a look at the mask: a branch on it could not be foretold.
+      // Cheap colors are stored without testing for an empty mask: that branch would be mispredicted.
       if constexpr (kColorWrite == ColorWrite::deferred) {
         auto* visibility = reinterpret_cast<std::int32_t*>(context.memory.visibility) + index;
         hn::Store(hn::IfThenElse(mask, splat(id), hn::Load(kInt, visibility)), kInt, visibility);
@@ -189,7 +190,7 @@ struct TrianglePixels {
       }
     }
   }
-  /// @param stored_at  what is there in the frame buffer, for what is mixed with it
+  /// @param stored_at  packed colors in the frame buffer, for blending
   template <class Edges>
   HWY_INLINE Int packed_at([[maybe_unused]] const Edges& block_edges, [[maybe_unused]] int bx,
                            [[maybe_unused]] int by, [[maybe_unused]] int chunk,
@@ -200,7 +201,7 @@ struct TrianglePixels {
     else return color.packed(barycentric_at(block_edges, bx, by, chunk));
   }
 
-  /// The edges that cover a narrow triangle's pixels are those that weigh its vertices.
+  /// Edges of a narrow triangle serve both coverage and the weights of the vertices.
   template <class Edges>
   HWY_INLINE Barycentric barycentric_at(const Edges& block_edges, int bx, int by, int chunk) const {
     if (HWY_UNLIKELY(triangle.edges64_index >= 0))
@@ -235,10 +236,10 @@ struct TrianglePixels {
     }
   }
 
-  /// color.packed() for a single pixel, step by step the same.
+  /// color.packed() of a single pixel, with the same bits.
   HWY_INLINE std::uint32_t packed_pixel_at(int x, int y, [[maybe_unused]] std::uint32_t stored) const {
-    if constexpr (kColorWrite != ColorWrite::blended) {  // those that are interpolated and nothing else stand
-                                                         // in SmallTrianglePixels
+    // Interpolated colors of small triangles are evaluated in SmallTrianglePixels.
+    if constexpr (kColorWrite != ColorWrite::blended) {
       return static_cast<std::uint32_t>(packed_color);
     } else {
       float w[3];

@@ -1,5 +1,5 @@
-// Sines and cosines of degrees for scene set-up, in double and by a fixed order of exact steps: the host's
-// mathematics library has no say in a picture's bits. Error below 1e-15.
+// Sines and cosines of degrees for scene set-up, in double, by a fixed sequence of operations, so that
+// pictures do not depend on the host's mathematics library. Error below 1e-15.
 #pragma once
 
 #include <cmath>

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/plan/frame_commands.h"
+#include "shading/pixel_path.h"
 
 namespace tessera::detail {
 namespace {
@@ -54,7 +55,7 @@ std::span<const PolygonMode> polygon_modes_of(const DrawPlan& plan) {
   return {kInOrder + first, last - first + 1};
 }
 
-void build_tile_draws(FrameCommands& commands) {
+void build_tile_draws(FrameCommands& commands, const PixelPathFrame& frame) {
   for (const GeometryDraw& geometry : commands.geometry) {
     const DrawPlan& plan = *geometry.plan;
     DrawBuffers& buffers = *geometry.buffers;
@@ -101,6 +102,7 @@ void build_tile_draws(FrameCommands& commands) {
     set_varyings(draw, plan);
     const std::size_t plan_number = static_cast<std::size_t>(&geometry - commands.geometry.data());
     const auto add = [&] {
+      draw.path = choose_pixel_path(frame, draw);
       commands.tile_draws.push_back(draw);
       commands.tile_draw_plan.push_back(plan_number);
     };

@@ -27,14 +27,15 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
   if (capture.draw_ids.empty() && capture.primitive_ids.empty() && capture.normals.empty() &&
       !count_fragments)
     return;
-  passes_.reserve(4);  // passes are referred to
-  if (!capture.draw_ids.empty()) add_pass(PassKind::draw_ids, commands, frame);
-  if (!capture.primitive_ids.empty()) add_pass(PassKind::primitive_ids, commands, frame);
-  if (!capture.normals.empty()) add_pass(PassKind::normals, commands, frame);
-  if (count_fragments) add_pass(PassKind::fragments, commands, frame);
+  passes_.reserve(4);  // frames of passes point into them
+  if (!capture.draw_ids.empty()) add_pass(PassKind::draw_ids, commands, frame, isa);
+  if (!capture.primitive_ids.empty()) add_pass(PassKind::primitive_ids, commands, frame, isa);
+  if (!capture.normals.empty()) add_pass(PassKind::normals, commands, frame, isa);
+  if (count_fragments) add_pass(PassKind::fragments, commands, frame, isa);
 }
 
-void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame) {
+void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame,
+                            InstructionSet isa) {
   Pass& pass = passes_.emplace_back(Pass{kind, frame, commands.tile_draws, commands.clears, {}});
   pass.ops.reserve(pass.draws.size());  // draws refer to it
   for (std::size_t i = 0; i < pass.draws.size(); ++i) {
@@ -88,7 +89,9 @@ void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const 
   pass.frame.samples = 1;  // visibility at the pixel centre
   pass.frame.draws = pass.draws.data();
   pass.frame.clears = pass.clears.data();
-  pass.frame.accumulation_count = 0;  // accumulated colours belong to no draw
+  const PixelPathFrame path_frame = pixel_path_frame(pass.frame, isa);
+  for (TileDraw& draw : pass.draws) draw.path = choose_pixel_path(path_frame, draw);
+  pass.frame.accumulation_count = 0;  // colours that come back from there are no draw's
 }
 
 std::uint64_t CaptureStage::render_pass(const Pass& pass, int row, int column,

@@ -41,7 +41,7 @@ class CaptureStage {
     std::vector<TileClear> clears;
     std::vector<FragmentOps> ops;  ///< tests of the draws with fragment operations
   };
-  void add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame);
+  void add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame, InstructionSet isa);
   std::uint64_t render_pass(const Pass& pass, int row, int column, TileWorkspace& workspace) const;
   void write_ids(std::span<std::uint32_t> to, int x0, int y0, TileWorkspace& workspace) const;
   void write_normals(int x0, int y0, TileWorkspace& workspace) const;

@@ -97,7 +97,11 @@ void RendererState::run_binning(FrameContext& frame) {
   frame.bins_filled = bin_stage.fill({0, 0, frame.grid.columns(), frame.grid.rows()}, frame.progress);
   count_triangles(frame.stats, bin_stage.counts());
   frame.stats.bin_passes = 1;
-  build_tile_draws(commands);
+  build_tile_draws(commands, {.layout = frame.target.layout,
+                              .depth_format = frame.target.depth_format,
+                              .samples = frame.target.format.samples,
+                              .shade_immediately = !options.debug.defer_shading,
+                              .isa = isa});
   frame.stats.binning_seconds = frame.clock.lap();
 }
 

@@ -51,6 +51,7 @@ class TileHarness {
     const auto pixels = static_cast<std::size_t>(frame_.grid.tile_size * frame_.grid.tile_size);
     std::fill_n(workspace_.color(), pixels, color);
     if (frame_.depth_format != DepthFormat::none) std::fill_n(workspace_.depth(), pixels, depth);
+    for (TileDraw& draw : draws_) draw.path = choose_pixel_path(pixel_path_frame(frame_, isa), draw);
     frame_.draws = draws_.data();
     frame_.draw_count = static_cast<std::uint32_t>(draws_.size());
     batches_.set({&bins_, 1}, frame_.grid.count());

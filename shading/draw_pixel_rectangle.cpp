@@ -1,43 +1,31 @@
-// Bitmaps and images in a tile: blocks of fragments, one depth for all. What happens to the fragments is what
-// happens to those of triangles.
-#if defined(TESSERA_SHADING_PIXEL_RECTANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_PIXEL_RECTANGLES_INL_H_
-#undef TESSERA_SHADING_PIXEL_RECTANGLES_INL_H_
-#else
-#define TESSERA_SHADING_PIXEL_RECTANGLES_INL_H_
-#endif
+// Bitmaps and images in a tile: blocks of fragments, all with the same depth.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/draw_pixel_rectangle.cpp"
+#include "framebuffer/lanes.h"
 
-#include "shading/draw_fragments-inl.h"
+#include "shading/draw_functions-inl.h"
+#include "shading/fragment_triangle-inl.h"
 #include "shading/texel_blocks.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// A draw that is a bitmap or an image, in one tile.
-inline HWY_NOINLINE void draw_pixel_rectangle(TileContext& context, std::uint32_t draw_number) {
+void draw_pixel_rectangle(TileContext& context, std::uint32_t draw_number) {
   const TileDraw& draw = context.frame.draws[draw_number];
   const PixelRectangle& texels = *draw.texels;
   const PixelRect& rect = context.rect;
-  ShadedTriangle face{};  // its front; nothing else is looked at
-  FragmentTriangle fragments{.context = context,
-                             .draw = draw,
-                             .ops = draw.ops != nullptr ? *draw.ops : kNoOperations,
-                             .triangle = face,
-                             .has_depth = draw.uses_depth && context.frame.depth_format != DepthFormat::none,
-                             .surface = {}};
-  if (fragments.ops.stencil)
-    fragments.stencil = stencil_test_constants(fragments.ops.faces[0], fragments.ops.stencil_max);
-  fragments.is_packed =
-      draw.id_output != TileDraw::IdOutput::none || (draw.ops == nullptr && has_packed_color(draw));
+  ShadedTriangle face{};  // a front face without attributes
+  face.draw = draw_number;
+  FragmentTriangle fragments(context, face);
   const bool is_first_primitive =
       draw.id_output == TileDraw::IdOutput::primitive || draw.source == ColorSource::per_triangle_packed;
   fragments.packed_color = is_first_primitive ? 0 : draw.packed_color;
   alignas(64) float colors[4 * kBlockPixels];
   const bool has_colors =
-      texels.channels != 0 &&
-      ((!fragments.is_packed && draw.source == ColorSource::texels) || fragments.ops.alpha_test);
-  if (has_colors) fragments.colors_given = colors;
+      texels.channels != 0 && (draw.path.color_write == ColorWrite::evaluated || fragments.ops.alpha_test);
+  if (has_colors) fragments.block_colors = colors;
+  fragments.begin_colors();
 
   TexelPlaces places[kMaxSamples];
   const int apart = texels.channels != 0 ? context.samples : 1;  // bits cover whole pixels
@@ -54,7 +42,7 @@ inline HWY_NOINLINE void draw_pixel_rectangle(TileContext& context, std::uint32_
     for (int bx = rect.x0 & ~3; bx < rect.x1; bx += kBlockSize) {
       bool alike = true;
       for (int s = 1; s < apart; ++s) alike &= places[s].same_in_block(places[0], bx, by);
-      // Where samples of a pixel see different texels, each is a fragment of its own.
+      // If samples of a pixel see different texels, each sample is a fragment.
       for (int turn = 0; turn < (alike ? 1 : context.samples); ++turn) {
         const std::uint32_t bits = places[turn].covered(texels, bx, by);
         if (bits == 0) continue;
@@ -68,5 +56,3 @@ inline HWY_NOINLINE void draw_pixel_rectangle(TileContext& context, std::uint32_
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
-
-#endif

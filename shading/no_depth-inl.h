@@ -1,9 +1,9 @@
-// What a draw's pixels go through, as far as there is code of its own for it.
-#if defined(TESSERA_SHADING_PIXEL_PATHS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_PIXEL_PATHS_INL_H_
-#undef TESSERA_SHADING_PIXEL_PATHS_INL_H_
+// Replaces a depth type (raster/depth-inl.h) in draws without depth.
+#if defined(TESSERA_SHADING_NO_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TESSERA_SHADING_NO_DEPTH_INL_H_
+#undef TESSERA_SHADING_NO_DEPTH_INL_H_
 #else
-#define TESSERA_SHADING_PIXEL_PATHS_INL_H_
+#define TESSERA_SHADING_NO_DEPTH_INL_H_
 #endif
 
 #include "raster/depth-inl.h"
@@ -12,14 +12,6 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// How a visible pixel gets its color.
-enum class ColorWrite { none, constant, interpolated, blended, deferred };
-inline constexpr bool is_interpolated(ColorWrite write) {
-  return write == ColorWrite::interpolated || write == ColorWrite::blended;
-}
-/// `less_write`, by draws that write depth and have no operations, has code of its own, since nearly
-/// everybody uses it.
-enum class DepthTestPath { less_write, generic };
 struct NoDepth {
   struct Block {};
   HWY_INLINE Block block(int, int) const { return {}; }

@@ -1,24 +1,23 @@
-// Shading once for each visible triangle of each pixel, where pixels have several samples: the colour comes
-// about at the pixel's centre and goes to the samples that see the triangle.
-#if defined(TESSERA_SHADING_DEFERRED_SHADING_MSAA_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_DEFERRED_SHADING_MSAA_INL_H_
-#undef TESSERA_SHADING_DEFERRED_SHADING_MSAA_INL_H_
-#else
-#define TESSERA_SHADING_DEFERRED_SHADING_MSAA_INL_H_
-#endif
+// Deferred shading where pixels have several samples: a color is evaluated once for each triangle that is
+// visible in a pixel, at the pixel's center, and goes to the samples that see the triangle.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/deferred_shading_msaa.cpp"
+#include "framebuffer/lanes.h"
 
 #include <algorithm>
 #include <bit>
 
 #include "raster/lane_packing-inl.h"
-#include "shading/deferred_shading-inl.h"
-#include "shading/fragment_ops-inl.h"
+#include "shading/batch_colors-inl.h"
+#include "shading/batch_surface-inl.h"
+#include "shading/draw_functions-inl.h"
+#include "shading/visibility-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Bits of a block's pixels, or of a chunk's, for each sample: 16 bits of a word, four samples a word.
+/// Pixels of a block, or of a chunk, for each sample: 16 bits per sample, four samples per word.
 struct SampleMasks {
   std::uint64_t word[kMaxSamples / 4] = {};
 };
@@ -26,48 +25,42 @@ struct SampleMasks {
 constexpr SampleMasks broadcast_to_samples(std::uint32_t bits) {
   return {{0x0001000100010001u * bits, 0x0001000100010001u * bits}};
 }
-/// Those that any sample has.
+/// The union over the samples.
 constexpr std::uint32_t any_sample_mask(const SampleMasks& bits) {
   const std::uint64_t all = bits.word[0] | bits.word[1], folded = all | all >> 32;
   return static_cast<std::uint32_t>(folded | folded >> 16) & 0xffff;
 }
 static_assert(kMaxSamples == 8);
 
-/// What one triangle covers of one chunk of pixels. Its points stand side by side in the batch.
+/// The visible pixels of one triangle in one chunk. Their points are adjacent in the batch.
 struct SampledSpan {
-  int point;              // the first one, in the batch
-  int index;              // of the chunk's first pixel in tile memory
-  std::uint32_t covered;  // a bit a lane
-  SampleMasks visible;    // by which samples of these pixels
+  int point;              // first point in the batch
+  int index;              // of the chunk's first pixel in the tile
+  std::uint32_t covered;  // one bit per lane
+  SampleMasks visible;    // samples of these pixels
 };
 
-/// Points of one surface. A pixel has one for each triangle that its samples see: they are packed, since the
-/// places of a block's pixels would not do.
+/// Points of one surface. A pixel has one for each triangle that is visible at its samples, so points are
+/// packed and do not lie at the places of the block's pixels.
 struct SampledBatch : BatchSurface {
   int count = 0, span_count = 0;
-  SampledSpan spans[kBatchPoints];  // each has a point at least
+  SampledSpan spans[kBatchPoints];  // each has at least one point
 };
 
-/// Words of the batch's points, in their order.
+/// Packed colors of the batch's points, in order.
 HWY_INLINE void shade_points(TileContext& context, const SampledBatch& points, std::int32_t* packed) {
-  const TileDraw& draw = context.frame.draws[points.draw];
-  ShadingBatch& batch = context.memory.batch;
-  const bool per_pixel = draw.source == ColorSource::per_pixel;
-  const int whole = (points.count + kLanes - 1) / kLanes * kLanes;
-  if (per_pixel) light_points_lanes(*draw.programs[points.back ? 1 : 0], batch, whole);
-  if (draw.source == ColorSource::constant) fill_colors(draw, points.back, batch);
-  if (draw.topology == Topology::lines && draw.source == ColorSource::interpolated)
-    clamp_colors(batch, points.count);  // pixels may lie beyond the ends
-  if (points.texture != nullptr) apply_texture(*points.texture, batch, whole);
+  evaluate_colors(context, points, (points.count + kLanes - 1) / kLanes * kLanes);
   for (int point = 0; point < points.count; point += kLanes) {
     const int count = std::min(points.count - point, kLanes);
-    hn::Store(quantize_chunk(context.frame, batch, point, (1u << count) - 1), kInt, packed + point);
+    // Colors of frames with several samples are never indices or scaled to levels.
+    hn::Store(pack_unit_colors(context.frame, context.memory.batch, point, (1u << count) - 1), kInt,
+              packed + point);
   }
 }
 
 inline HWY_NOINLINE void shade_sampled_batch(TileContext& context, SampledBatch& points) {
   if (points.count == 0) return;
-  alignas(64) std::int32_t packed[kBatchPoints + kLanes];  // the last ones are read along with others
+  alignas(64) std::int32_t packed[kBatchPoints + kLanes];  // padded: whole vectors are read
   shade_points(context, points, packed);
   const Int writable = splat(static_cast<std::int32_t>(context.frame.draws[points.draw].write_mask));
   for (int i = 0; i < points.span_count; ++i) {
@@ -84,7 +77,7 @@ inline HWY_NOINLINE void shade_sampled_batch(TileContext& context, SampledBatch&
   points.count = points.span_count = 0;
 }
 
-/// Texture coordinates of the points of one chunk.
+/// Adds the texture coordinates of the points of one chunk.
 inline HWY_NOINLINE void add_coordinates(const TileContext& context, SampledBatch& points,
                                          const ShadedTriangle& triangle, const Barycentric& at,
                                          std::uint32_t bits) {
@@ -95,8 +88,8 @@ inline HWY_NOINLINE void add_coordinates(const TileContext& context, SampledBatc
   });
 }
 
-/// Adds what samples see of one triangle in one block to the batch. Shades the batch whenever it is full.
-/// kCount: attributes in adjacent arrays without texture coordinates, where known; else 0.
+/// Adds the visible pixels of one triangle in one block to the batch, which is shaded whenever it is full.
+/// @param kCount  number of attributes, in adjacent arrays and without texture coordinates; 0: any
 template <int kCount>
 HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, const ShadedTriangle& triangle,
                                    int bx, int by, int index, const SampleMasks& visible) {
@@ -118,7 +111,7 @@ HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, c
               : interpolate(at, values[j]);
       hn::StoreU(hn::TableLookupLanes(value, packing), kFloat, target + points.count);
     }
-    if (kCount == 0 && has_coordinates(points)) add_coordinates(context, points, triangle, at, bits);
+    if (kCount == 0 && points.gathers_coordinates) add_coordinates(context, points, triangle, at, bits);
     SampledSpan& pixels = points.spans[points.span_count++];
     pixels.point = points.count;
     pixels.index = index + chunk * kLanes;
@@ -132,14 +125,14 @@ HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, c
 inline HWY_NOINLINE void add_points(TileContext& context, SampledBatch& points,
                                     const ShadedTriangle& triangle, int bx, int by, int index,
                                     const SampleMasks& visible) {
-  switch (points.adjacent && !has_coordinates(points) ? points.attribute_count : 0) {
+  switch (points.adjacent && !points.gathers_coordinates ? points.attribute_count : 0) {
     case 3: return add_points_counted<3>(context, points, triangle, bx, by, index, visible);
     case 6: return add_points_counted<6>(context, points, triangle, bx, by, index, visible);
     default: return add_points_counted<0>(context, points, triangle, bx, by, index, visible);
   }
 }
 
-/// The same at each sample.
+/// pixels_where() at each sample.
 template <int kSamples, class Predicate>
 HWY_INLINE SampleMasks samples_where(const TileContext& context, int index, Predicate predicate) {
   SampleMasks bits;
@@ -151,7 +144,7 @@ HWY_INLINE SampleMasks samples_where(const TileContext& context, int index, Pred
   return bits;
 }
 
-/// All samples of each pixel of a block wait for the same triangle, or for none.
+/// Whether all samples of each pixel of a block see the same triangle, or none.
 template <int kSamples>
 HWY_INLINE bool samples_agree(const TileContext& context, int index) {
   Int differing = hn::Zero(kInt);
@@ -165,7 +158,8 @@ HWY_INLINE bool samples_agree(const TileContext& context, int index) {
   return hn::AllTrue(kInt, hn::Eq(differing, hn::Zero(kInt)));
 }
 
-/// Adds one block to the batch. kSamples of them are looked at: one, where all agree. False if none waits.
+/// Adds one block to the batch. Returns false if no sample has a triangle.
+/// @param kSamples  samples to read: 1 if all agree
 template <int kSamples>
 HWY_INLINE bool add_block(TileContext& context, SampledBatch& points, int bx, int by, int index) {
   const auto id_at = [&](int word, std::uint64_t bits) {
@@ -178,7 +172,7 @@ HWY_INLINE bool add_block(TileContext& context, SampledBatch& points, int bx, in
   if (any_sample_mask(pending) == 0) return false;
   for (int leading = 0; leading < kWords; ++leading) {
     while (pending.word[leading] != 0) {
-      // All triangles of the surface that the first one belongs to, one after the other.
+      // All triangles of the first one's surface, in order.
       const ShadedTriangle& leader = context.memory.visible_triangles[id_at(leading, pending.word[leading])];
       if (!points.is_of(leader)) {
         shade_sampled_batch(context, points);
@@ -205,9 +199,8 @@ HWY_INLINE bool add_block(TileContext& context, SampledBatch& points, int bx, in
   return true;
 }
 
-/// Shades what was collected in the whole tile, and forgets it.
 template <int kSamples>
-HWY_NOINLINE void shade_visible_msaa(TileContext& context) {
+HWY_NOINLINE void shade_visible_samples(TileContext& context) {
   SampledBatch points;
   for (int by = 0; by < context.tile_size; by += 4) {
     for (int bx = 0; bx < context.tile_size; bx += 4) {
@@ -224,19 +217,11 @@ HWY_NOINLINE void shade_visible_msaa(TileContext& context) {
   shade_sampled_batch(context, points);
 }
 
-/// Shades everything that waits for its colour.
-HWY_INLINE void shade_whole_tile(TileContext& context) {
-  if (!context.memory.visible_triangles.empty()) {
-    if (context.samples == 4) shade_visible_msaa<4>(context);
-    else if (context.samples > 1) shade_visible_msaa<kMaxSamples>(context);
-    else shade_visible(context, 0, 0, context.tile_size - 1, context.tile_size - 1);
-  }
-  context.memory.visible_triangles.clear();
-  context.memory.edges64.clear();
+void shade_visible_msaa(TileContext& context) {
+  if (context.samples == 4) shade_visible_samples<4>(context);
+  else shade_visible_samples<kMaxSamples>(context);
 }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,45 +1,41 @@
-// Draws of textured triangles where each pixel that is visible is shaded at once: coordinates, texels and
-// colours stay in registers. The same bits as where they wait (deferred_shading-inl.h).
-#if defined(TESSERA_SHADING_DRAW_TEXTURED_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TESSERA_SHADING_DRAW_TEXTURED_INL_H_
-#undef TESSERA_SHADING_DRAW_TEXTURED_INL_H_
-#else
-#define TESSERA_SHADING_DRAW_TEXTURED_INL_H_
-#endif
+// Textured triangles that are shaded at once: texture coordinates, texels and colors stay in registers. The
+// same bits as deferred shading.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/draw_textured.cpp"
+#include "framebuffer/lanes.h"
 
-#include <bit>
-
-#include "shading/draw_fragments-inl.h"
+#include "shading/draw_functions-inl.h"
+#include "shading/fragment_depth-inl.h"
 #include "shading/texture_coordinates-inl.h"
+#include "shading/texture_env-inl.h"
+#include "shading/texture_sampling-inl.h"
+#include "shading/visible_triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
+#if HWY_TARGET != HWY_SCALAR  // one lane gains nothing: choose_pixel_path() takes another path
 
-/// Those without operations, into RGB buffers, of colours that are there already.
-HWY_INLINE bool can_texture_immediately(const TileFrame& frame, const TileDraw& draw) {
-  return frame.shade_immediately && frame.samples == 1 && draw.ops == nullptr && draw.texture != nullptr &&
-         draw.texture->levels != nullptr && !frame.layout.index && !frame.layout.luminance &&
-         frame.layout.alpha_bits == 0 &&
-         (draw.source == ColorSource::constant || draw.source == ColorSource::interpolated) &&
-         !draw.index[0] && !draw.index[1];
-}
-
-/// One triangle's way through the blocks of a tile.
+/// Functor for for_each_block(): one triangle.
 template <TexelFilter kFilter>
 struct TexturedBlocks {
   TileContext& context;
   const TileDraw& draw;
   const ShadedTriangle& triangle;
-  bool uses_depth, is_rgb8, modulates, replaces_color, stores_full, full;
+  bool uses_depth;
+  bool is_rgb8;
+  bool modulates;
+  bool replaces_color;
+  bool stores_full;  // full blocks without any test or mask
+  bool full;         // argument of draw_block(): the compiler would clone the function for a constant
   FragmentDepth depth;
   TextureCoordinates coordinates;
   Interpolant color[3];
-  Int visible = hn::Zero(kInt);  // minus the number of pixels that passed, in each lane
-  std::uint64_t blocks = 0;      // drawn as a whole
+  Int visible = hn::Zero(kInt);  // minus the number of visible pixels, per lane
+  std::uint64_t blocks = 0;      // stored as a whole
 
-  /// Full blocks wait for company: the steps of one wait for each other. Loads of nearest texels are most of
-  /// their steps.
+  /// Full blocks are drawn several at a time, because the steps of one block depend on each other. With
+  /// nearest texels most of the time goes into loads, and one block at a time suffices.
   static constexpr int kBlocksPerGroup =
       kFilter == TexelFilter::nearest || kFilter == TexelFilter::any ? 1 : 4;
   struct FullBlock {
@@ -50,7 +46,7 @@ struct TexturedBlocks {
   int pending_count = 0;
 
   HWY_INLINE void set_up(int i) {
-    uses_depth = has_depth(context.frame, draw);
+    uses_depth = draw.path.uses_depth();
     const ColorLayout& layout = context.frame.layout;
     is_rgb8 = layout.r_bits == 8 && layout.g_bits == 8 && layout.b_bits == 8;
     modulates = draw.texture->function == TextureEnv::modulate;
@@ -83,10 +79,10 @@ struct TexturedBlocks {
       }
       return;
     }
-    full = kFull;  // no argument: the compiler would make a copy of draw_block for each
+    full = kFull;
     draw_block(bx, by, edges);
   }
-  /// Those that no more company comes for.
+  /// Draws the full blocks that are left.
   HWY_INLINE void finish() {
     full = true;
     for (int i = 0; i < pending_count; ++i) draw_block(pending[i].bx, pending[i].by, pending[i].edges);
@@ -170,8 +166,8 @@ struct TexturedBlocks {
   }
 };
 
-/// Of full blocks side by side, whose nearest texels are stored as they are, what they have in common stays
-/// in registers: copies, since the compiler must read again what a stored word might have changed.
+/// Rows of full blocks whose nearest texels are stored unchanged. What the blocks share is copied into
+/// locals: the compiler would reload members after every store.
 struct NearestRows {
   TexturedBlocks<TexelFilter::nearest>& blocks;
 
@@ -207,30 +203,19 @@ struct NearestRows {
   }
 };
 
-inline void draw_textured(TileContext& context, std::uint32_t draw_number) {
-  TriangleGroup& g = context.memory.group;
+void draw_textured_triangles(TileContext& context, std::uint32_t draw_number) {
+  const TriangleGroup& g = context.memory.group;
   const TileDraw& draw = context.frame.draws[draw_number];
-  set_up_edges(g, context.tile_x, context.tile_y, context.rect);
-  if (g.mask == 0) return;
-  if (has_depth(context.frame, draw))
-    set_up_depth(g, context.frame.depth_format, context.tile_x, context.tile_y);
-  set_up_weights(g);
-  for (std::uint32_t left = g.mask; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    Edges32 edges = tile_edges32(g, i);
-    Edges64 wide_edges;
-    if (g.needs_edges64[i] != 0 &&
-        !tile_edges64(g, i, context.tile_x, context.tile_y, context.tile_size, edges, wide_edges))
-      continue;
+  const std::uint32_t in_tile = set_up_group(context, draw.path.uses_depth(), true);
+  for_each_visible_triangle(context, in_tile, [&](int i, const TileEdges& edges) TESSERA_LOOP_BODY {
     ShadedTriangle triangle;
-    fill_shaded_triangle(triangle, context, draw_number, i, is_back(context, draw, i));
-    if (g.needs_edges64[i] != 0) store_edges64(triangle, context.memory, wide_edges);
+    fill_shaded_triangle(triangle, context, draw_number, i, is_back(context, draw, i), edges);
     with_filter(*draw.texture->levels, [&]<TexelFilter kFilter>() HWY_ATTR {
       TexturedBlocks<kFilter> blocks{.context = context, .draw = draw, .triangle = triangle};
       blocks.set_up(i);
-      const BlockOffsets offsets(edges);
+      const BlockOffsets offsets(edges.edges);
       const auto draw_by = [&](auto& drawn) HWY_ATTR {
-        for_each_block(edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], drawn);
+        for_each_block(edges.edges, offsets, g.x0[i], g.y0[i], g.x1[i], g.y1[i], drawn);
       };
       bool by_rows = false;
       if constexpr (kFilter == TexelFilter::nearest) {
@@ -243,11 +228,10 @@ inline void draw_textured(TileContext& context, std::uint32_t draw_number) {
       context.counts.shaded_pixels += blocks.shaded_pixels();
     });
     context.memory.edges64.clear();
-  }
+  });
 }
 
+#endif
 }  // namespace HWY_NAMESPACE
 }  // namespace tessera::detail
 HWY_AFTER_NAMESPACE();
-
-#endif

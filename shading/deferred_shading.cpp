@@ -1,0 +1,196 @@
+// Deferred shading: tiles collect which triangle is visible where; then whole batches of pixels are shaded
+// with full lanes. Attributes are gathered by block span, the pixels of one triangle in one block, with
+// masks: none is gathered pixel by pixel.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/deferred_shading.cpp"
+#include "framebuffer/lanes.h"
+
+#include <bit>
+
+#include "framebuffer/check.h"
+#include "shading/batch_colors-inl.h"
+#include "shading/batch_surface-inl.h"
+#include "shading/draw_functions-inl.h"
+#include "shading/tile_context-inl.h"
+#include "shading/visibility-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera::detail {
+namespace HWY_NAMESPACE {
+
+inline constexpr int kBatchBlocks = kBatchPoints / kBlockPixels;
+static_assert(kBatchBlocks * kBlockPixels == kBatchPoints);
+
+/// Up to kBatchBlocks blocks with pixels of one surface; each has 16 points of the batch. Points that no
+/// triangle covers hold any bits: nothing that is stored depends on them.
+struct PixelBatch : BatchSurface {
+  int blocks = 0;
+  int index[kBatchBlocks];  // of the block's first pixel in the tile
+  int bx[kBatchBlocks], by[kBatchBlocks];
+  std::uint32_t covered[kBatchBlocks];  // 16 bits
+  bool one_surface = false;             // all collected triangles are of this surface
+#if HWY_TARGET == HWY_AVX3
+  alignas(64) std::int32_t visibility[kBatchPoints];  // copy of the blocks' visibility buffer
+  // Block spans: the visible pixels of one triangle in one block. Each has a pixel at least, so they fit.
+  int span_count = 0;
+  std::int32_t triangle[kBatchPoints], slot[kBatchPoints];
+#endif
+};
+
+/// Gathers the pixels of one triangle in the block of a slot.
+template <int kCount>
+HWY_INLINE void gather_visible(const TileContext& context, PixelBatch& pixels, int slot,
+                               const ShadedTriangle& triangle, const TriangleInterpolants& interpolants,
+                               std::uint32_t covered) {
+  static_assert(kCount <= TriangleInterpolants::kCapacity);
+  const int bx = pixels.bx[slot], by = pixels.by[slot], first = slot * kBlockPixels;
+  if constexpr (kCount > 0)
+    gather_block_span<kCount>(context, pixels, triangle, interpolants, bx, by, covered, first);
+  else
+    gather_block_span<0>(context, pixels, triangle,
+                         InterpolantArrays(triangle, pixels.first_attribute, pixels.attribute_count), bx, by,
+                         covered, first);
+}
+
+// take_surface_pixels() takes the pixels of the batch's surface into the next slot and returns them. There
+// are two variants:
+//   visibility  the block's part of the visibility buffer
+//   pending     pixels that have not been taken
+#if HWY_TARGET == HWY_AVX3
+// Two passes: find the distinct triangles of a block first, in lanes; gather attributes of all block spans
+// afterwards, so that mispredicted loop exits do not stall the FMA chains.
+
+template <int kCount>
+HWY_NOINLINE void gather_block_spans(const TileContext& context, PixelBatch& pixels) {
+  for (int i = 0; i < pixels.span_count; ++i) {
+    const int slot = pixels.slot[i];
+    const std::int32_t id = pixels.triangle[i];
+    gather_visible<kCount>(
+        context, pixels, slot, context.memory.visible_triangles[static_cast<std::size_t>(id)],
+        context.memory.interpolants[id], pixels_of(pixels.visibility + slot * kBlockPixels, id));
+  }
+}
+HWY_INLINE void gather_pending(const TileContext& context, PixelBatch& pixels) {
+  with_known_count(pixels, [&](auto count) HWY_ATTR { gather_block_spans<count.value>(context, pixels); });
+  pixels.span_count = 0;
+}
+
+HWY_INLINE std::uint32_t take_surface_pixels(const TileContext& context, PixelBatch& pixels,
+                                             const std::int32_t* visibility, std::uint32_t pending) {
+  TESSERA_ASSERT(pixels.span_count <= pixels.blocks * kBlockPixels);
+  const Int at = hn::Load(kInt, visibility);
+  std::uint32_t covered = pending;
+  if (!pixels.one_surface)
+    covered &=
+        mask_bits(kInt, hn::Eq(hn::GatherIndex(kInt, context.memory.surfaces, hn::Max(at, hn::Zero(kInt))),
+                               splat(pixels.surface_number())));
+  const std::uint32_t first = covered & ~mask_bits(kInt, duplicate_lanes(at));
+  hn::StoreU(hn::Compress(at, mask_from_bits(first)), kInt, pixels.triangle + pixels.span_count);
+  hn::StoreU(splat(pixels.blocks), kInt, pixels.slot + pixels.span_count);
+  hn::Store(at, kInt, pixels.visibility + pixels.blocks * kBlockPixels);
+  pixels.span_count += std::popcount(first);
+  return covered;
+}
+#else
+HWY_INLINE void gather_pending(const TileContext&, PixelBatch&) {}
+
+HWY_INLINE std::uint32_t take_surface_pixels(const TileContext& context, PixelBatch& pixels,
+                                             const std::int32_t* visibility, std::uint32_t pending) {
+  std::uint32_t taken = 0;
+  for (std::uint32_t left = pending; left != 0;) {
+    const std::int32_t id = visibility[std::countr_zero(left)];
+    const std::uint32_t covered = pixels_of(visibility, id);
+    left &= ~covered;
+    if (context.memory.surfaces[id] != pixels.surface_number()) continue;
+    const ShadedTriangle& triangle = context.memory.visible_triangles[static_cast<std::size_t>(id)];
+    with_known_count(pixels, [&](auto count) HWY_ATTR {
+      gather_visible<count.value>(context, pixels, pixels.blocks, triangle, context.memory.interpolants[id],
+                                  covered);
+    });
+    taken |= covered;
+  }
+  return taken;
+}
+#endif
+
+/// Shades the points of the batch, and empties it.
+inline HWY_NOINLINE void shade_batch(TileContext& context, PixelBatch& pixels) {
+  if (pixels.blocks == 0) return;
+  gather_pending(context, pixels);
+  const TileDraw& draw = context.frame.draws[pixels.draw];
+  const ShadingBatch& batch = context.memory.batch;
+  evaluate_colors(context, pixels, pixels.blocks * kBlockPixels);
+  if (draw.captures_normals)
+    for (int slot = 0; slot < pixels.blocks; ++slot)
+      store_normals(context, pixels.index[slot], pixels.covered[slot], slot * kBlockPixels);
+  const Int writable = splat(static_cast<std::int32_t>(draw.write_mask));
+  for (int slot = 0; slot < pixels.blocks; ++slot) {
+    context.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(pixels.covered[slot]));
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      const std::uint32_t covered_lanes = chunk_bits(pixels.covered[slot], chunk);
+      if (covered_lanes == 0) continue;
+      const int first = slot * kBlockPixels + chunk * kLanes;
+      store_packed(context.color + pixels.index[slot] + chunk * kLanes,
+                   pack_batch_colors(context.frame, pixels, batch, first, covered_lanes),
+                   mask_from_bits(covered_lanes), writable);
+    }
+  }
+  pixels.blocks = 0;
+}
+
+/// Prepares the collected triangles: their surface numbers and interpolants. Returns whether all are of one
+/// surface.
+HWY_INLINE bool prepare_triangles(const TileContext& context) {
+  TileWorkspace::Memory& memory = context.memory;
+  TESSERA_ASSERT(memory.visible_triangles.size() <= kVisibleTriangleCapacity);
+  BatchSurface surface;
+  bool stores_interpolants = false;
+  int changes = 0;
+  for (std::size_t i = 0; i < memory.visible_triangles.size(); ++i) {
+    const ShadedTriangle& triangle = memory.visible_triangles[i];
+    if (!surface.is_of(triangle)) {
+      begin_surface(context, surface, triangle);
+      stores_interpolants = known_count(surface) > 0;
+      ++changes;
+    }
+    memory.surfaces[i] = surface.surface_number();
+    if (stores_interpolants) store_interpolants(triangle, surface.first_attribute, memory.interpolants[i]);
+  }
+  return changes == 1;
+}
+
+/// Shades what was collected in the blocks of [x0, x1] x [y0, y1], pixels of the tile, and forgets it.
+void shade_visible(TileContext& context, int x0, int y0, int x1, int y1) {
+  TileWorkspace::Memory& memory = context.memory;
+  PixelBatch pixels;
+  pixels.one_surface = prepare_triangles(context);
+  for (int by = y0 & ~3; by <= y1; by += 4) {
+    for (int bx = x0 & ~3; bx <= x1; bx += 4) {
+      const int index = context.block_index(bx, by);
+      auto* const visibility = reinterpret_cast<std::int32_t*>(memory.visibility) + index;
+      std::uint32_t pending = pixels_where(visibility, [](Int at) HWY_ATTR { return hn::Gt(at, splat(-1)); });
+      if (pending == 0) continue;
+      while (pending != 0) {
+        // All pixels of the block that belong to the surface of the first one still pending.
+        const ShadedTriangle& leader =
+            memory.visible_triangles[static_cast<std::size_t>(visibility[std::countr_zero(pending)])];
+        const bool other_surface = !pixels.is_of(leader);
+        if (pixels.blocks == kBatchBlocks || other_surface) shade_batch(context, pixels);
+        if (other_surface) begin_surface(context, pixels, leader);
+        pixels.index[pixels.blocks] = index;
+        pixels.bx[pixels.blocks] = bx;
+        pixels.by[pixels.blocks] = by;
+        const std::uint32_t taken = take_surface_pixels(context, pixels, visibility, pending);
+        pending &= ~taken;
+        pixels.covered[pixels.blocks++] = taken;
+      }
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+        hn::Store(splat(-1), kInt, visibility + chunk * kLanes);
+    }
+  }
+  shade_batch(context, pixels);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera::detail
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,209 @@
+// What a block of fragments goes through [GL 2.1, 4.1]: alpha test, stencil test, depth test; then its colors
+// are evaluated, blended, dithered, combined by a logic operation and stored under the write mask.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/fragment_triangle.cpp"
+#include "framebuffer/lanes.h"
+
+#include <bit>
+
+#include "shading/batch_colors-inl.h"
+#include "shading/fragment_triangle-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera::detail {
+namespace HWY_NAMESPACE {
+
+HWY_NOINLINE void FragmentTriangle::operator()(int bx, int by, const BlockFragments* blocks) {
+  std::uint32_t passed[kMaxSamples], bits = 0;
+  if (tests_texels()) {
+    for (int s = 0; s < context.samples; ++s)
+      for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+        bits |= mask_bits(kInt, hn::MaskFromVec(blocks[s].covered[chunk])) << (chunk * kLanes);
+    if (bits == 0) return;
+    sample_block(bx, by, bits);
+    bits = 0;
+  }
+  for (int s = 0; s < context.samples; ++s) bits |= passed[s] = test(context.sample[s], bx, by, blocks[s]);
+  const ColorWrite color_write = draw.path.color_write;
+  if (bits == 0 || color_write == ColorWrite::none) return;
+  visible = true;
+  const int index = context.block_index(bx, by);
+  if (color_write == ColorWrite::deferred) return store_ids(index, passed);
+  context.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(bits));
+  if (evaluates_colors()) evaluate_block(bx, by, bits);
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+    if (chunk_bits(bits, chunk) == 0) continue;
+    const Colors source = color_write == ColorWrite::constant ? Colors{} : colors(bx, by, chunk);
+    const Float threshold = thresholds(bx, by, chunk);
+    for (int s = 0; s < context.samples; ++s) {
+      const std::uint32_t lanes = chunk_bits(passed[s], chunk);
+      if (lanes == 0) continue;
+      std::uint32_t* const color = context.sample[s].color + index + chunk * kLanes;
+      const Int stored = hn::Load(kInt, reinterpret_cast<const std::int32_t*>(color));
+      store_packed(color, packed(source, threshold, lanes, stored), mask_from_bits(lanes),
+                   splat(static_cast<std::int32_t>(draw.write_mask)));
+    }
+  }
+}
+
+/// Runs the tests of one sample and stores what they change. Returns the visible pixels, 16 bits.
+HWY_INLINE std::uint32_t FragmentTriangle::test(const TileAttachments& sample, int bx, int by,
+                                                const BlockFragments& block) {
+  const int index = context.block_index(bx, by);
+  std::uint32_t bits = 0;
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+    LaneMask mask = hn::MaskFromVec(block.covered[chunk]);
+    if (hn::AllFalse(kInt, mask)) continue;
+    if (ops.alpha_test) {
+      const Float alpha = textured_alpha(own_alpha(bx, by, chunk), chunk);
+      mask = hn::And(mask,
+                     hn::RebindMask(kInt, compare_lanes(alpha, ops.alpha_func, splat(ops.alpha_reference))));
+    }
+    LaneMask failed = no_lanes(), passed = mask;
+    Int stored = hn::Zero(kInt);
+    if (ops.stencil) {
+      stored = hn::Load(kInt, sample.stencil + index + chunk * kLanes);
+      passed = hn::And(mask, stencil_passes(stencil, stored));
+      failed = hn::AndNot(passed, mask);
+    }
+    LaneMask zpassed = passed;
+    if (has_depth) {
+      std::int32_t* const depth = sample.depth + index + chunk * kLanes;
+      const Int before = hn::Load(kInt, depth);
+      zpassed = hn::And(passed, compare_lanes(block.keys[chunk], draw.depth_test, before));
+      if (draw.depth_write) hn::Store(hn::IfThenElse(zpassed, block.keys[chunk], before), kInt, depth);
+    }
+    if (stencil.writes())
+      hn::Store(stencil_result(stencil, stored, failed, hn::AndNot(zpassed, passed), zpassed), kInt,
+                sample.stencil + index + chunk * kLanes);
+    bits |= mask_bits(kInt, zpassed) << (chunk * kLanes);
+  }
+  return bits;
+}
+
+/// Samples the texture at the block's pixels into the batch.
+HWY_NOINLINE void FragmentTriangle::sample_block(int bx, int by, std::uint32_t bits) {
+  if (texture->levels == nullptr) return;
+  ShadingBatch& batch = context.memory.batch;
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+    if (chunk_bits(bits, chunk) != 0)
+      coordinates.at(at(bx, by, chunk), [&](int field, Float value) HWY_ATTR {
+        hn::Store(value, kFloat, batch.field[field] + chunk * kLanes);
+      });
+  sample_texture_lanes(*texture->levels, batch, kBlockPixels);
+}
+
+/// Deferred: stores the triangle's number where it is visible.
+/// @param index   of the block's first pixel in the tile
+/// @param passed  visible pixels of each sample
+HWY_INLINE void FragmentTriangle::store_ids(int index, const std::uint32_t* passed) {
+  for (int s = 0; s < context.samples; ++s)
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      auto* const ids =
+          reinterpret_cast<std::int32_t*>(context.sample[s].visibility) + index + chunk * kLanes;
+      const LaneMask mask = mask_from_bits(passed[s] >> (chunk * kLanes));
+      hn::Store(hn::IfThenElse(mask, splat(id), hn::Load(kInt, ids)), kInt, ids);
+    }
+}
+
+/// Evaluates the colors of the block's pixels in the batch, but for their alpha.
+HWY_INLINE void FragmentTriangle::evaluate_block(int bx, int by, std::uint32_t bits) {
+  ShadingBatch& batch = context.memory.batch;
+  if (flat_color != nullptr) {
+    fill_colors(flat_color, batch, kBlockPixels);
+  } else if (block_colors != nullptr) {
+    for (int c = 0; c < 3; ++c)
+      std::copy_n(block_colors + c * kBlockPixels, kBlockPixels, batch.field[kColorR + c]);
+  } else if (surface.attribute_count > 0) {
+    with_known_count(surface, [&](auto count) HWY_ATTR {
+      const InterpolantArrays values(triangle, surface.first_attribute,
+                                     count.value > 0 ? count.value : surface.attribute_count);
+      gather_block_span<count.value>(context, surface, triangle, values, bx, by, bits, 0);
+    });
+  }
+  const bool is_sampled = tests_texels() || draw.path.color_write == ColorWrite::constant;
+  if (texture != nullptr && !is_sampled) sample_block(bx, by, bits);
+  evaluate_colors(context, surface, kBlockPixels);
+  if (draw.captures_normals) store_normals(context, context.block_index(bx, by), bits, 0);
+}
+
+HWY_INLINE Barycentric FragmentTriangle::at(int bx, int by, int chunk) const {
+  return barycentric(triangle, context.memory.edges64.data(), bx, by, chunk);
+}
+
+/// Alpha of a chunk before texturing.
+HWY_INLINE Float FragmentTriangle::own_alpha(int bx, int by, int chunk) const {
+  if (block_colors != nullptr) return hn::Load(kFloat, block_colors + 3 * kBlockPixels + chunk * kLanes);
+  if (flat_color != nullptr) return splat(flat_color[3]);
+  const int attribute = draw.alpha_attribute[face];
+  if (attribute < 0) return splat(draw.alpha[face]);
+  const Interpolant alpha = make_interpolant(triangle, attribute, attributes_clamp_to_range(context, draw));
+  return clamped_unit(interpolate_clamped(at(bx, by, chunk), alpha));
+}
+
+/// Alpha of a chunk under its texels in the batch.
+HWY_INLINE Float FragmentTriangle::textured_alpha(Float own, int chunk) const {
+  if (texture == nullptr || !texture->changes_alpha()) return own;
+  return texture_env_alpha(*texture, own, texels_at(*texture, context.memory.batch, chunk * kLanes).c[3]);
+}
+
+/// Evaluated colors 0..1 of a chunk; or an index in place of red.
+HWY_INLINE Colors FragmentTriangle::colors(int bx, int by, int chunk) const {
+  Colors out{};
+  for (int c = 0; c < 3; ++c)
+    out.c[c] = hn::Load(kFloat, context.memory.batch.field[kColorR + c] + chunk * kLanes);
+  if (draw.index[face]) return out;
+  const Float alpha = surface.is_constant ? splat(draw.color[face][3]) : own_alpha(bx, by, chunk);
+  out.c[3] = textured_alpha(alpha, chunk);
+  return out;
+}
+
+/// Rounding thresholds of a chunk: 0.5, or the dither pattern.
+HWY_INLINE Float FragmentTriangle::thresholds(int bx, int by, int chunk) const {
+  if (!ops.dither) return splat(0.5f);
+  alignas(64) float t[kLanes];
+  for (int l = 0; l < kLanes; ++l) {
+    const int p = chunk * kLanes + l;
+    t[l] = ops.threshold[(context.tile_y + by + p / 4) % kDitherSize]
+                        [(context.tile_x + bx + p % 4) % kDitherSize];
+  }
+  return hn::Load(kFloat, t);
+}
+
+/// Palette entries nearest to the colors, which the threshold moves by the palette's spread.
+HWY_INLINE Int FragmentTriangle::nearest_entries(const Colors& colors, Float threshold,
+                                                 std::uint32_t lanes) const {
+  alignas(64) float c[3][kLanes];
+  alignas(64) float t[kLanes];
+  alignas(64) std::int32_t packed[kLanes] = {};
+  for (int k = 0; k < 3; ++k) hn::Store(colors.c[k], kFloat, c[k]);
+  hn::Store(threshold, kFloat, t);
+  for (int l = 0; l < kLanes; ++l) {
+    if ((lanes >> l & 1) == 0) continue;
+    const float moved = (t[l] - 0.5f) * ops.palette_spread;
+    packed[l] = static_cast<std::int32_t>(
+        context.frame.palette_search->nearest_unclamped(c[0][l] + moved, c[1][l] + moved, c[2][l] + moved));
+  }
+  return hn::Load(kInt, packed);
+}
+
+/// Packed colors that one sample stores.
+/// @param source  colors, or an index in place of red
+/// @param stored  packed colors of the sample before
+HWY_INLINE Int FragmentTriangle::packed(Colors source, Float threshold, std::uint32_t lanes,
+                                        Int stored) const {
+  const ColorLayout& layout = context.frame.layout;
+  if (draw.path.color_write == ColorWrite::constant) return splat(static_cast<std::int32_t>(packed_color));
+  if (draw.index[face]) {
+    const Int result = pack_indices(layout, source.c[0]);
+    return ops.logic == LogicOp::copy ? result : logic_op_lanes(ops.logic, result, stored);
+  }
+  if (ops.blend) source = blend_lanes(ops, source, unpack_colors(layout, stored));
+  const Int result =
+      layout.index ? nearest_entries(source, threshold, lanes) : pack_colors(layout, source, threshold);
+  return ops.logic == LogicOp::copy ? result : logic_op_lanes(ops.logic, result, stored);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera::detail
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,174 @@
+#include "shading/pixel_path.h"
+
+#include "framebuffer/check.h"
+#include "shading/tile_renderer.h"
+
+namespace tessera::detail {
+namespace {
+
+using Kind = PixelPath::Kind;
+
+bool has_packed_color(const TileDraw& draw) {
+  if (draw.texture != nullptr) return false;
+  return draw.source == ColorSource::constant || draw.source == ColorSource::per_vertex_packed ||
+         draw.source == ColorSource::per_triangle_packed;
+}
+
+bool has_offset(const TileDraw& draw) {
+  return draw.offset_factor != 0 || draw.offset_units != 0 || draw.depth_offsets != nullptr;
+}
+
+bool is_rgb8(const ColorLayout& layout) {
+  const bool has_8_bits = layout.r_bits == 8 && layout.g_bits == 8 && layout.b_bits == 8;
+  return has_8_bits && layout.alpha_bits == 0 && !layout.luminance && !layout.index;
+}
+
+/// Color of a draw without operations.
+ColorWrite plain_color_write(const TileDraw& draw) {
+  if (draw.source == ColorSource::none) return ColorWrite::none;
+  if (draw.source == ColorSource::per_pixel || draw.deferred) return ColorWrite::deferred;
+  return draw.source == ColorSource::interpolated ? ColorWrite::interpolated : ColorWrite::constant;
+}
+
+/// Color of blocks of fragments.
+ColorWrite fragment_color_write(const TileDraw& draw) {
+  if (draw.source == ColorSource::none || draw.write_mask == 0) return ColorWrite::none;
+  if (draw.deferred) return ColorWrite::deferred;
+  const bool is_packed =
+      draw.id_output != TileDraw::IdOutput::none || (draw.ops == nullptr && has_packed_color(draw));
+  return is_packed ? ColorWrite::constant : ColorWrite::evaluated;
+}
+
+/// source * alpha + destination * (1 - alpha), of colors that are interpolated or constant, and nothing else.
+bool is_plain_blend(const PixelPathFrame& frame, const TileDraw& draw) {
+  const FragmentOps& ops = *draw.ops;
+  if (!is_rgb8(frame.layout) || ops.dither || ops.logic != LogicOp::copy || draw.texture != nullptr)
+    return false;
+  if (draw.source != ColorSource::interpolated && draw.source != ColorSource::constant) return false;
+  return ops.blend && ops.equation == BlendEquation::add && ops.src_color == BlendFactor::src_alpha &&
+         ops.dst_color == BlendFactor::one_minus_src_alpha;
+}
+
+/// Whether the path `triangles` has code for the operations of a draw: a stencil test, and a plain blend.
+/// Sets its color.
+bool triangles_take_operations(const PixelPathFrame& frame, const TileDraw& draw, ColorWrite& color_write) {
+  if (frame.samples > 1 || draw.ops->alpha_test || draw.id_output != TileDraw::IdOutput::none ||
+      has_offset(draw))
+    return false;
+  if (draw.source == ColorSource::none || draw.deferred || draw.plain_colors) {
+    color_write = plain_color_write(draw);
+    return true;
+  }
+  color_write = ColorWrite::blended;
+  return is_plain_blend(frame, draw);
+}
+
+/// RGB draws without operations whose colors need no lighting. One lane gains nothing.
+bool can_texture_immediately(const PixelPathFrame& frame, const TileDraw& draw) {
+  if (frame.isa == InstructionSet::scalar || !frame.shade_immediately || frame.samples > 1) return false;
+  if (draw.ops != nullptr || draw.texture == nullptr || draw.texture->levels == nullptr) return false;
+  if (frame.layout.index || frame.layout.luminance || frame.layout.alpha_bits != 0) return false;
+  if (draw.index[0] || draw.index[1]) return false;
+  return draw.source == ColorSource::constant || draw.source == ColorSource::interpolated;
+}
+
+/// Points and lines of packed colors, and lines of interpolated ones, are just stored.
+PixelPath choose_point_or_line_path(const PixelPathFrame& frame, const TileDraw& draw, PixelPath path) {
+  const bool is_line = draw.topology == Topology::lines;
+  const bool is_interpolated =
+      is_line && draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0];
+  const bool is_plain = draw.ops == nullptr && frame.samples == 1;
+  if (is_plain && (is_interpolated || has_packed_color(draw))) {
+    path.kind = is_line ? Kind::lines : Kind::points;
+    path.color_write = is_interpolated ? ColorWrite::interpolated : ColorWrite::constant;
+  } else {
+    path.kind = is_line ? Kind::line_fragments : Kind::point_fragments;
+    path.color_write = fragment_color_write(draw);
+  }
+  return path;
+}
+
+PixelPath choose_triangle_path(const PixelPathFrame& frame, const TileDraw& draw, PixelPath path) {
+  const bool has_samples = frame.samples > 1;
+  if (can_texture_immediately(frame, draw)) {
+    path.kind = Kind::textured_triangles;
+    path.color_write = ColorWrite::evaluated;
+    return path;
+  }
+  path.color_write = plain_color_write(draw);
+  if (draw.ops != nullptr && !triangles_take_operations(frame, draw, path.color_write)) {
+    path.kind = has_samples ? Kind::fragments_msaa : Kind::fragments;
+    path.color_write = fragment_color_write(draw);
+    return path;
+  }
+  path.kind = has_samples ? Kind::triangles_msaa : Kind::triangles;
+  const bool is_less_write = draw.depth_test == Compare::less && draw.depth_write && draw.ops == nullptr;
+  // 32-bit integer depth is rare: one function for all tests.
+  if (is_less_write && path.uses_depth() && path.depth_format != DepthFormat::unorm32)
+    path.depth_test = DepthTestPath::less_write;
+  TESSERA_ASSERT(!has_samples || draw.deferred || draw.source != ColorSource::per_pixel);
+  TESSERA_ASSERT(!has_samples || draw.deferred || draw.source != ColorSource::interpolated ||
+                 (draw.write_mask == 0xffffffffu && !draw.scaled_colors && !frame.layout.index &&
+                  !frame.layout.luminance));
+  return path;
+}
+
+}  // namespace
+
+PixelPathFrame pixel_path_frame(const TileFrame& frame, InstructionSet isa) {
+  return {.layout = frame.layout,
+          .depth_format = frame.depth_format,
+          .samples = frame.samples,
+          .shade_immediately = frame.shade_immediately,
+          .isa = isa};
+}
+
+PixelPath choose_pixel_path(const PixelPathFrame& frame, const TileDraw& draw) {
+  PixelPath path;
+  if (draw.uses_depth) path.depth_format = frame.depth_format;
+  if (draw.texels != nullptr) {
+    path.kind = Kind::pixel_rectangle;
+    path.color_write = fragment_color_write(draw);
+    return path;
+  }
+  if (draw.topology != Topology::triangles) return choose_point_or_line_path(frame, draw, path);
+  return choose_triangle_path(frame, draw, path);
+}
+
+const char* name(PixelPath::Kind kind) {
+  switch (kind) {
+    case Kind::triangles: return "triangles";
+    case Kind::triangles_msaa: return "triangles with several samples";
+    case Kind::textured_triangles: return "textured triangles";
+    case Kind::fragments: return "fragments of triangles";
+    case Kind::fragments_msaa: return "fragments of triangles with several samples";
+    case Kind::points: return "points";
+    case Kind::lines: return "lines";
+    case Kind::point_fragments: return "fragments of points";
+    case Kind::line_fragments: return "fragments of lines";
+    case Kind::pixel_rectangle: return "pixel rectangle";
+  }
+  return "";
+}
+
+const char* name(ColorWrite color_write) {
+  switch (color_write) {
+    case ColorWrite::none: return "none";
+    case ColorWrite::constant: return "constant";
+    case ColorWrite::interpolated: return "interpolated";
+    case ColorWrite::blended: return "blended";
+    case ColorWrite::evaluated: return "evaluated";
+    case ColorWrite::deferred: return "deferred";
+  }
+  return "";
+}
+
+std::string describe(const PixelPath& path) {
+  static constexpr const char* kDepthNames[] = {"none", "unorm16", "unorm24", "unorm32", "float32"};
+  std::string text = std::string(name(path.kind)) + ", color " + name(path.color_write) + ", depth " +
+                     kDepthNames[static_cast<int>(path.depth_format)];
+  if (path.depth_test == DepthTestPath::less_write) text += ", less and write";
+  return text;
+}
+
+}  // namespace tessera::detail
