@@ -25,7 +25,7 @@ Configurations few_configurations(int threads) {
 std::string to_text(const RendererOptions& configuration) {
   return std::string(name(configuration.instruction_set)) + ", " + std::to_string(configuration.threads) +
          (configuration.threads == 1 ? " thread" : " threads") + ", tiles of " +
-         std::to_string(configuration.tile_size) + (configuration.defer_shading ? "" : ", shaded at once");
+         std::to_string(configuration.tile_size) + (configuration.defer_shading ? "" : ", immediate shading");
 }
 
 }  // namespace tessera::program::cli
