@@ -1,4 +1,5 @@
-# Debian packages, a component each: cmake --preset package && cmake --build --preset package && cpack --preset package
+# Debian packages, one per component:
+#   cmake --preset package && cmake --build --preset package && cpack --preset package
 set(CPACK_PACKAGE_NAME tessera)
 set(CPACK_PACKAGE_VENDOR "Tessera")
 set(CPACK_PACKAGE_CONTACT "Tessera maintainers <maintainers@tessera.invalid>")
@@ -27,7 +28,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME ${tessera_package_development})
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS runtime)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Tessera, a software rasterizer: headers and static library")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS libtbb-dev)  # of the static library
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS libtbb-dev)  # needed by the static library
 set(CPACK_DEBIAN_IMAGEIO_PACKAGE_NAME ${tessera_package_imageio})
 set(CPACK_DEBIAN_IMAGEIO_PACKAGE_SECTION libs)
 set(CPACK_COMPONENT_IMAGEIO_DESCRIPTION "Tessera, a software rasterizer: image files through OpenImageIO")

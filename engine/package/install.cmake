@@ -1,8 +1,8 @@
-# What `cmake --install` lays down, in components that are also the Debian packages:
+# Installed components, and the Debian packages made of them:
 #   runtime      libtessera.so.N                      libtesseraN
 #   development  headers, CMake package, pkg-config   libtessera-dev
-#   imageio      the module that reads and writes     libtessera-imageioN
-#   import       the module that reads models         libtessera-importN
+#   imageio      module for image files               libtessera-imageioN
+#   import       module for models                    libtessera-importN
 #   program      bin/tessera                          tessera
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -16,20 +16,26 @@ set(tessera_package_program tessera)
 
 install(TARGETS tessera EXPORT tessera-shared
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development)
-install(TARGETS tessera_static EXPORT tessera-static ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(TARGETS tessera_static EXPORT tessera-static
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 foreach(component runtime development)
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${tessera_package_${component}} RENAME copyright COMPONENT ${component})
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${tessera_package_${component}}
+    RENAME copyright COMPONENT ${component})
 endforeach()
-install(DIRECTORY engine/tessera framebuffer/tessera DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(DIRECTORY engine/tessera framebuffer/tessera
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 
-# The static library has a file of its own: only who asks for it needs oneTBB's package.
+# The static library has a separate export file: only its users need oneTBB's package.
 install(EXPORT tessera-shared NAMESPACE tessera:: DESTINATION ${package_dir} COMPONENT development)
 install(EXPORT tessera-static NAMESPACE tessera:: DESTINATION ${package_dir} COMPONENT development)
-configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tessera-config.cmake.in ${built_dir}/tessera-config.cmake INSTALL_DESTINATION ${package_dir})
+configure_package_config_file(
+  ${CMAKE_CURRENT_LIST_DIR}/tessera-config.cmake.in ${built_dir}/tessera-config.cmake
+  INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${built_dir}/tessera-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${built_dir}/tessera-config.cmake ${built_dir}/tessera-config-version.cmake DESTINATION ${package_dir} COMPONENT development)
+install(FILES ${built_dir}/tessera-config.cmake ${built_dir}/tessera-config-version.cmake
+  DESTINATION ${package_dir} COMPONENT development)
 
-# Relocatable: the prefix is found from where the file lies.
+# tessera.pc is relocatable: its prefix is relative to its own folder.
 file(RELATIVE_PATH prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" prefix_from_pc "${prefix_from_pc}")
 configure_file(${CMAKE_CURRENT_LIST_DIR}/tessera.pc.in ${built_dir}/tessera.pc @ONLY)
@@ -43,28 +49,36 @@ if(TARGET tessera_cli AND NOT CMAKE_CROSSCOMPILING)
   if(TARGET tessera_bench)
     file(RELATIVE_PATH lib_from_libexec /${CMAKE_INSTALL_LIBEXECDIR}/tessera /${CMAKE_INSTALL_LIBDIR})
     set_target_properties(tessera_bench PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_libexec}")
-    install(TARGETS tessera_bench RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/tessera COMPONENT program)
+    install(TARGETS tessera_bench
+      RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/tessera COMPONENT program)
   endif()
-  # The manual page and the completions are the program's own words.
-  foreach(page "man:tessera.1" "completion bash:completion.bash" "completion zsh:completion.zsh" "completion fish:completion.fish")
-    string(REGEX REPLACE ":.*" "" words "${page}")
+  # The program prints its manual page and its completions.
+  foreach(page "man:tessera.1" "completion bash:completion.bash" "completion zsh:completion.zsh"
+          "completion fish:completion.fish")
+    string(REGEX REPLACE ":.*" "" arguments "${page}")
     string(REGEX REPLACE ".*:" "" file "${page}")
-    add_custom_command(OUTPUT ${built_dir}/${file} COMMAND sh -c "'$<TARGET_FILE:tessera_cli>' ${words} > '${built_dir}/${file}'" DEPENDS tessera_cli VERBATIM)
+    add_custom_command(OUTPUT ${built_dir}/${file}
+      COMMAND sh -c "'$<TARGET_FILE:tessera_cli>' ${arguments} > '${built_dir}/${file}'"
+      DEPENDS tessera_cli VERBATIM)
     list(APPEND pages ${built_dir}/${file})
   endforeach()
   add_custom_target(tessera_pages ALL DEPENDS ${pages})
   install(FILES ${built_dir}/tessera.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
-  install(FILES ${built_dir}/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME tessera COMPONENT program)
-  install(FILES ${built_dir}/completion.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions RENAME _tessera COMPONENT program)
-  install(FILES ${built_dir}/completion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d RENAME tessera.fish COMPONENT program)
+  install(FILES ${built_dir}/completion.bash
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME tessera COMPONENT program)
+  install(FILES ${built_dir}/completion.zsh
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions RENAME _tessera COMPONENT program)
+  install(FILES ${built_dir}/completion.fish
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d RENAME tessera.fish COMPONENT program)
   install(TARGETS tessera_import LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT import NAMELINK_SKIP)
   install(TARGETS tessera_imageio LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT imageio NAMELINK_SKIP)
   foreach(component imageio import program)
-    install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${tessera_package_${component}} RENAME copyright COMPONENT ${component})
+    install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${tessera_package_${component}}
+      RENAME copyright COMPONENT ${component})
   endforeach()
 endif()
 
-# All that is installed, without the tests and benchmarks.
+# Builds everything that is installed, without tests.
 add_custom_target(installed DEPENDS tessera tessera_static)
 if(TARGET tessera_cli)
   add_dependencies(installed tessera_cli)

@@ -26,7 +26,8 @@ bool reads_colors(const FragmentState& state) {
 }
 
 Buffers buffers_for(const reference::Scene& scene) {
-  bool reads = false, accumulates = false;
+  bool reads = false;
+  bool accumulates = false;
   Buffers buffers;
   buffers.depth = scene.framebuffer.depth;
   for (const reference::Command& command : scene.frame) {
@@ -53,9 +54,12 @@ std::optional<std::array<bool, 4>> component_mask(const std::array<bool, 4>& col
   const bool alpha = color_mask[3] && is_on(format.color_bits, format.alpha_bits);
   std::array<bool, 4> mask{false, false, false, alpha};
   if (has_components(format)) {
-    const int blue = format.color_bits / 3, green = (format.color_bits + 2) / 3,
-              red = format.color_bits - green - blue;
-    const bool r = is_on(green + blue, red), g = is_on(blue, green), b = is_on(0, blue);
+    const int blue = format.color_bits / 3;
+    const int green = (format.color_bits + 2) / 3;
+    const int red = format.color_bits - green - blue;
+    const bool r = is_on(green + blue, red);
+    const bool g = is_on(blue, green);
+    const bool b = is_on(0, blue);
     mask = {color_mask[0] && r, color_mask[1] && g, color_mask[2] && b, alpha};
   } else {
     mask[0] = mask[1] = mask[2] = is_on(0, format.color_bits) && color_mask[0];

@@ -1,4 +1,4 @@
-// Which buffers Mesa gets for a scene.
+// Selection of Mesa's colour buffer for a scene.
 #pragma once
 
 #include <array>
@@ -9,12 +9,11 @@
 namespace tessera::mesa {
 
 enum class ColorStore {
-  kFloat,  ///< nothing reads the colour buffer: colours become levels or palette entries when the frame is
-           ///< finished
-  kBytes,  ///< 8 bits a component and no alpha, for what reads it
+  /// Nothing reads the colour buffer: colours are quantized to levels or palette entries after the frame.
+  kFloat,
+  kBytes,  ///< 8 bits per component without alpha, for operations that read the buffer
   kBytesAndAlpha,
-  kWindow  ///< 8 bits a component with alpha, in OSMesa's window: the only one that has an accumulation
-           ///< buffer
+  kWindow  ///< 8 bits per component with alpha, in OSMesa's window, which alone has an accumulation buffer
 };
 
 struct Buffers {
@@ -23,16 +22,15 @@ struct Buffers {
   bool stencil = false;
 };
 
-/// What the fragments of a draw, a bitmap or an image obey; null for a command that makes none.
+/// Fragment state of a draw, a bitmap or an image; null for other commands.
 const reference::FragmentState* fragment_state(const reference::Command& command);
 
-/// Whether what fragments write depends on the colours that are there. Masks of whole components do not
-/// count.
+/// Whether written colours depend on the stored ones. Masks of whole components do not count.
 bool reads_colors(const reference::FragmentState& state);
 
 Buffers buffers_for(const reference::Scene& scene);
 
-/// The masks of a draw as one of whole components (alpha: false without alpha planes), if they are one.
+/// Converts the masks of a draw to one of whole components (alpha: false without alpha planes), if possible.
 std::optional<std::array<bool, 4>> component_mask(const std::array<bool, 4>& color_mask,
                                                   std::uint32_t plane_mask,
                                                   const reference::FrameBufferFormat& format);

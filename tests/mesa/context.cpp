@@ -28,15 +28,24 @@ void load(F& function, const char* name) {
   if (function == nullptr) throw std::runtime_error(std::string("OSMesa has no ") + name);
 }
 
-// By default Mesa filters with weights of 8 bits and takes one level of detail for each four pixels. It reads
-// this when the process makes its first context.
+// By default Mesa filters with weights of 8 bits and computes one level of detail for each four pixels. It
+// reads this variable when the process creates its first context.
 void ask_for_exact_filters() { setenv("GALLIVM_PERF", "no_aos_sampling,no_quad_lod", 0); }
+
+GLenum color_format(ColorStore color) {
+  switch (color) {
+    case ColorStore::kFloat: return GL_RGBA32F;
+    case ColorStore::kBytes: return GL_RGB8;
+    default: return GL_RGBA8;
+  }
+}
 
 }  // namespace
 
 Context::Context(int width_px, int height_px, const Buffers& buffers) : width_(width_px), height_(height_px) {
   const bool in_window = buffers.color == ColorStore::kWindow;
-  const int window_width = in_window ? width_px : 1, window_height = in_window ? height_px : 1;
+  const int window_width = in_window ? width_px : 1;
+  const int window_height = in_window ? height_px : 1;
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,
@@ -110,7 +119,8 @@ void Context::load_functions() {
 
 void Context::make_frame_buffer(const Buffers& buffers) {
   const Functions& f = functions_;
-  GLuint frame_buffer = 0, names[2] = {};
+  GLuint frame_buffer = 0;
+  GLuint names[2] = {};
   f.gen_framebuffers(1, &frame_buffer);
   f.bind_framebuffer(GL_FRAMEBUFFER, frame_buffer);
   f.gen_renderbuffers(2, names);
@@ -119,10 +129,7 @@ void Context::make_frame_buffer(const Buffers& buffers) {
     f.renderbuffer_storage(GL_RENDERBUFFER, format, width_, height_);
     f.framebuffer_renderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
   };
-  attach(names[0], GL_COLOR_ATTACHMENT0,
-         buffers.color == ColorStore::kFloat   ? GL_RGBA32F
-         : buffers.color == ColorStore::kBytes ? GL_RGB8
-                                               : GL_RGBA8);
+  attach(names[0], GL_COLOR_ATTACHMENT0, color_format(buffers.color));
   const bool has_depth = buffers.depth != reference::DepthFormat::kNone;
   if (buffers.stencil)
     attach(names[1], has_depth ? GL_DEPTH_STENCIL_ATTACHMENT : GL_STENCIL_ATTACHMENT,

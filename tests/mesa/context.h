@@ -3,7 +3,7 @@
 
 #define GL_GLEXT_PROTOTYPES 0
 #include <GL/osmesa.h>
-// glext.h needs the types of osmesa.h
+// glext.h needs the types of osmesa.h.
 #include <GL/glext.h>
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace tessera::mesa {
 
-/// Functions that came after OpenGL 1.1, loaded from the current context.
+/// OpenGL functions newer than 1.1, loaded from the current context.
 struct Functions {
   PFNGLPROVOKINGVERTEXPROC provoking_vertex;
   PFNGLCLIPCONTROLPROC clip_control;
@@ -54,7 +54,7 @@ struct Functions {
   PFNGLUNIFORM4FVPROC uniform_4fv;
 };
 
-/// Current on the thread that made it, until it is destroyed. Everything in it dies with it.
+/// An OpenGL context, current on the thread that created it until it is destroyed. Owns all its objects.
 class Context {
  public:
   /// @throws std::runtime_error if OSMesa cannot make such a context or frame buffer.
@@ -73,7 +73,7 @@ class Context {
   void make_frame_buffer(const Buffers& buffers);
 
   int width_, height_;
-  std::vector<std::uint32_t> window_;  // OSMesa wants one; a single pixel if it is not drawn to
+  std::vector<std::uint32_t> window_;  // required by OSMesa; a single pixel if unused
   OSMesaContext context_ = nullptr;
   Functions functions_{};
 };

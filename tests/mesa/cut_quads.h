@@ -1,4 +1,4 @@
-// Quads that the view volume cuts.
+// Quads that the view volume clips.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace tessera::mesa {
 
-/// Mesa splits quads from their first to their third vertex, but those that it has to cut, from the second to
-/// the fourth. Smooth, filled quads of a draw that may be cut become triangles, split as the others: changes
-/// `vertices`, and returns what they make.
+/// Mesa splits quads from their first to their third vertex, but clipped ones from the second to the fourth.
+/// Smooth, filled quads of a draw that may be clipped become triangles, split like unclipped quads: changes
+/// `vertices` and returns their primitive type.
 reference::PrimitiveType split_cut_quads(const reference::Mesh& mesh, const reference::Draw& draw,
                                          const reference::Camera& camera, std::vector<Vertex>& vertices);
 

@@ -8,7 +8,7 @@ namespace tessera::mesa {
 namespace {
 
 constexpr std::size_t kMaxLights = 8;
-constexpr double kMaxExponent = 128;  // of highlights and spots, in OpenGL
+constexpr double kMaxExponent = 128;  // OpenGL's limit for highlights and spots
 
 struct Floats {
   GLfloat values[4];
@@ -24,12 +24,12 @@ bool is_black(reference::Vec4 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 bool light_is_ordinary(const reference::Light& light) {
   const auto [constant, linear, quadratic] = light.attenuation;
   const bool attenuates_safely = constant > 0 && linear >= 0 && quadratic >= 0;
-  const bool is_directional_spot =
-      light.position.w == 0 && light.spot_cutoff != 180;  // OpenGL drivers differ here
+  // OpenGL drivers differ here.
+  const bool is_directional_spot = light.position.w == 0 && light.spot_cutoff != 180;
   return attenuates_safely && !is_directional_spot && light.spot_exponent <= kMaxExponent;
 }
 
-// 0^0 is 1 by the specification, but not by every instruction set.
+// 0^0 is 1 in the specification, but not on every instruction set.
 bool material_is_ordinary(const reference::Material& material, const reference::Draw& draw) {
   const bool has_highlight =
       !is_black(material.specular) || draw.color_material == reference::ColorMaterial::kSpecular;
@@ -86,16 +86,18 @@ bool fixed_functions_can(const reference::Draw& draw, const reference::LightMode
                          const std::vector<reference::Light>& lights, const reference::Camera& camera,
                          const std::vector<Vertex>& vertices) {
   if (!draw.lighting) return true;
-  return draw.shading != reference::Shading::kPhong && model.specular == reference::SpecularModel::kBlinn &&
-         lights.size() <= kMaxLights && std::ranges::all_of(lights, light_is_ordinary) &&
-         material_is_ordinary(draw.material, draw) && material_is_ordinary(draw.back_material, draw) &&
-         is_affine(draw.world_from_object) && is_affine(camera.view_from_world) &&
-         std::ranges::all_of(vertices, vertex_is_ordinary);
+  if (draw.shading == reference::Shading::kPhong || model.specular != reference::SpecularModel::kBlinn)
+    return false;
+  const bool lights_fit = lights.size() <= kMaxLights && std::ranges::all_of(lights, light_is_ordinary);
+  const bool materials_fit =
+      material_is_ordinary(draw.material, draw) && material_is_ordinary(draw.back_material, draw);
+  const bool transforms_fit = is_affine(draw.world_from_object) && is_affine(camera.view_from_world);
+  return lights_fit && materials_fit && transforms_fit && std::ranges::all_of(vertices, vertex_is_ordinary);
 }
 
 void set_fixed_function_lighting(const reference::Draw& draw, const reference::LightModel& model,
                                  const std::vector<reference::Light>& lights, bool has_vertex_colors) {
-  glDisable(GL_COLOR_MATERIAL);  // before the materials: while it is on they follow the colour
+  glDisable(GL_COLOR_MATERIAL);  // before the materials, which would otherwise follow the colour
   if (!draw.lighting) {
     glDisable(GL_LIGHTING);
     return;

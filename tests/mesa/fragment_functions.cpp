@@ -142,7 +142,7 @@ void set_fragment_functions(const Functions& gl, const reference::FragmentState&
   set_color_mask(component_mask(state.color_mask, state.plane_mask, format).value());
 }
 
-// A unit of Mesa's llvmpipe is two levels of a unorm format (measured; OpenGL lets it choose) and one step of
+// One unit of Mesa's llvmpipe is two levels of a unorm format (measured; OpenGL permits it) and one step of
 // float.
 void set_window_depths(const reference::Draw& draw, reference::DepthFormat depth) {
   const reference::PolygonOffset offset = draw.polygon_offset;

@@ -1,4 +1,4 @@
-// The per-fragment operations as OpenGL's.
+// The per-fragment operations in OpenGL.
 #pragma once
 
 #include "context.h"
@@ -13,12 +13,12 @@ void set_scissor(const std::optional<reference::Rect>& scissor);
 
 void set_color_mask(const std::array<bool, 4>& mask);
 
-/// Sets everything between shading and the colour buffer: scissor, alpha test, stencil, depth test, blend,
+/// Sets the state between shading and the colour buffer: scissor, alpha test, stencil, depth test, blend,
 /// logic operation, and the masks, which must be of whole components.
 void set_fragment_functions(const Functions& gl, const reference::FragmentState& state,
                             const reference::FrameBufferFormat& format);
 
-/// Sets the depth range and the offset of polygons, in every mode.
+/// Sets the depth range and the polygon offset for all polygon modes.
 void set_window_depths(const reference::Draw& draw, reference::DepthFormat depth);
 
 }  // namespace tessera::mesa

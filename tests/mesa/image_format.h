@@ -1,4 +1,4 @@
-// How OpenGL calls the channels of an image.
+// OpenGL's names for the channels of an image.
 #pragma once
 
 #include "context.h"

@@ -20,7 +20,7 @@ using reference::FrameBufferFormat;
 
 using Reason = std::optional<std::string>;
 
-constexpr int kLargestViewport = 8192;  // what the context surely takes
+constexpr int kLargestViewport = 8192;  // supported by every context
 
 Reason format_limit(const FrameBufferFormat& format, const Buffers& buffers) {
   if (format.samples > 1) return "OSMesa has no multisampling";
@@ -47,7 +47,7 @@ Reason index_limit(const Draw& draw, const reference::Scene& scene) {
   return std::nullopt;
 }
 
-// What the frame has been told so far.
+// State set by the frame's commands so far.
 struct FrameState {
   reference::Camera camera;
   std::vector<reference::Light> lights;
@@ -58,11 +58,10 @@ struct FrameState {
   void take(const Clear& clear) {
     if (clear.depth) cleared_depths.push_back(*clear.depth);
   }
-  void take(const auto&) {}  // others leave nothing that limits ask for
+  void take(const auto&) {}  // other commands do not affect the limits
 };
 
-// Mesa carries depths in float and clears in double: what is put at exactly the depth of a clear may lie a
-// step beside it.
+// Mesa carries depths in float and clears in double: a depth equal to a clear's depth may differ by one step.
 bool meets_a_clear(double depth, const std::vector<double>& cleared) {
   return std::floor(depth) != depth && std::ranges::find(cleared, depth) != cleared.end();
 }
@@ -82,7 +81,7 @@ Reason draw_limit(const Draw& draw, const reference::Scene& scene, const FrameSt
   return primitive_limit(draw, scene, frame.camera);
 }
 
-// What can be said of each command in turn.
+// The limit of each command in turn.
 struct CommandLimit {
   const reference::Scene& scene;
   const FrameState& frame;
@@ -110,11 +109,11 @@ struct CommandLimit {
   }
 };
 
-// Mesa's accumulation buffer wraps where ours saturates. This bounds its values as if no scissor kept
-// commands apart.
+// Mesa's accumulation buffer wraps where Tessera's saturates. The bound ignores that scissors may separate
+// commands.
 class AccumulationBound {
  public:
-  void take(const auto&) {}  // other commands leave the accumulation buffer alone
+  void take(const auto&) {}  // other commands do not change the accumulation buffer
 
   void take(const Clear& clear) {
     if (!clear.accumulation) return;

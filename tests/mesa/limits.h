@@ -1,4 +1,4 @@
-// What Mesa cannot follow.
+// Scenes that Mesa cannot render as specified.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,10 @@
 
 namespace tessera::mesa {
 
-/// What an index buffer cleared to an index shows, if it can be told from the colour alone afterwards.
+/// Displayed colour of an index buffer cleared to `index`, if the index is recoverable from the colour.
 std::optional<reference::Rgb8> cleared_entry(std::uint32_t index, const reference::FrameBufferFormat& format);
 
-/// The first reason found; nothing if Mesa can follow.
+/// The first reason found; none if Mesa can render the scene.
 std::optional<std::string> first_limit(const reference::Scene& scene);
 
 }  // namespace tessera::mesa

@@ -101,7 +101,7 @@ class Renderer {
     check_errors("accumulating");
   }
 
-  // OpenGL's bitmaps and images are front; Mesa's are made of polygons that may be back.
+  // OpenGL's bitmaps and images are front-facing; Mesa draws them as polygons that may be back-facing.
   void set_raster_state(reference::FragmentState state) {
     if (state.stencil) state.stencil->back = state.stencil->front;
     set_fragment_functions(gl_, state, format_);
@@ -140,8 +140,8 @@ class Renderer {
     const Rect viewport = viewport_of(draw, format_);
     const Growth growth = viewport_growth(type, draw, viewport);
     set_viewport(gl_, viewport, growth);
-    set_scissor(draw.scissor ? reference::intersection(*draw.scissor, viewport)
-                             : viewport);  // Mesa's points and lines reach over it
+    // Mesa's points and lines extend beyond the viewport.
+    set_scissor(draw.scissor ? reference::intersection(*draw.scissor, viewport) : viewport);
     gl_.clip_control(GL_LOWER_LEFT, camera_.reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     glMatrixMode(GL_PROJECTION);
     load_matrix(reference::multiply(shrinking(growth), camera_.clip_from_view));
@@ -155,7 +155,7 @@ class Renderer {
                                                       : LightingBy::kVertexProgram;
   }
 
-  // Leaves the matrix that takes objects into eye space.
+  // Leaves the model view matrix set to eye from object.
   void set_colors(const Draw& draw, const reference::Mesh& mesh, const std::vector<Vertex>& vertices) {
     const reference::Texture* const texture = draw.texture ? &scene_.textures.at(*draw.texture) : nullptr;
     const LightingBy lighting = lighting_by(draw, vertices);
@@ -175,9 +175,7 @@ class Renderer {
     load_matrix(reference::multiply(camera_.view_from_world, draw.world_from_object));
   }
 
-  static void load_matrix(const Mat4& m) {
-    glLoadTransposeMatrixd(m.rows[0].data());
-  }  // the rows lie one after the other
+  static void load_matrix(const Mat4& m) { glLoadTransposeMatrixd(m.rows[0].data()); }  // rows are contiguous
 
   const reference::Scene& scene_;
   const FrameBufferFormat& format_;

@@ -5,10 +5,11 @@
 namespace tessera::mesa {
 namespace {
 
-// Each row begins with a byte of its own, as its neighbours the most significant bit left.
+// Each row starts at a new byte, most significant bit left.
 std::vector<GLubyte> packed(const reference::Bitmap& bitmap) {
-  const auto width = static_cast<std::size_t>(bitmap.width), height = static_cast<std::size_t>(bitmap.height),
-             row_bytes = (width + 7) / 8;
+  const auto width = static_cast<std::size_t>(bitmap.width);
+  const auto height = static_cast<std::size_t>(bitmap.height);
+  const auto row_bytes = (width + 7) / 8;
   std::vector<GLubyte> bytes(row_bytes * height);
   for (std::size_t y = 0; y < height; ++y)
     for (std::size_t x = 0; x < width; ++x)
@@ -17,14 +18,14 @@ std::vector<GLubyte> packed(const reference::Bitmap& bitmap) {
 }
 
 void go_to(const Functions& gl, const std::array<double, 2>& at, double depth) {
-  glDepthRange(0, 1);  // the position's depth would be mapped to it
+  glDepthRange(0, 1);  // The raster position's depth would otherwise be mapped to the range.
   gl.window_pos_3d(at[0], at[1], depth);
 }
 
 }  // namespace
 
-// The colour is that at the time when the position was set. Mesa gathers bitmaps and draws them at once, so
-// that two that overlap would be one: it is told to draw each.
+// The raster colour is the current colour at the time of glRasterPos. Mesa gathers bitmaps and draws them
+// together, so overlapping ones would merge; flushing draws each by itself.
 void draw_bitmap(const Functions& gl, const reference::Bitmap& bitmap) {
   const reference::Vec4 c = bitmap.color;
   glColor4d(c.x, c.y, c.z, c.w);

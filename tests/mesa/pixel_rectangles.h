@@ -1,5 +1,5 @@
-// Bitmaps and images at a window position. The fragment functions are set before; lighting and textures have
-// no say.
+// Bitmaps and images at a window position. Set the fragment functions first; lighting and textures do not
+// apply.
 #pragma once
 
 #include "context.h"

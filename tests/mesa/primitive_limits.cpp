@@ -67,7 +67,7 @@ Corners in_clip_space(const Vertices& vertices, const Draw& draw, const Mesh& me
   return corners;
 }
 
-/// Whether a plane, where `inside` is 0, has corners on both sides.
+/// Whether the plane inside(p) = 0 has corners on both sides.
 template <class Inside>
 bool cuts(const Corners& corners, const Inside& inside) {
   return std::ranges::any_of(corners, [&](Vec4 p) { return inside(p) < 0; }) &&
@@ -101,8 +101,10 @@ bool faces_both_ways(const Corners& polygon) {
 }
 
 bool sides_matter(const Draw& draw, bool two_sided_lighting) {
-  return draw.cull != reference::Cull::kNone || (draw.lighting && two_sided_lighting) ||
-         draw.polygon_mode[0] != draw.polygon_mode[1] || stencils_each_side(draw);
+  const bool sides_are_lit_apart = draw.lighting && two_sided_lighting;
+  const bool modes_differ = draw.polygon_mode[0] != draw.polygon_mode[1];
+  return draw.cull != reference::Cull::kNone || sides_are_lit_apart || modes_differ ||
+         stencils_each_side(draw);
 }
 
 Reason line_limit(const Corners& line, const Draw& draw, const reference::Camera& camera) {
@@ -111,29 +113,30 @@ Reason line_limit(const Corners& line, const Draw& draw, const reference::Camera
   return std::nullopt;
 }
 
-// By what part of a line's length the middles of its pixels at the side lie before or behind the line in
-// their column or row.
+// Offset along the line between the edge pixels of a wide line's column (or row) and the line's centre, as a
+// fraction of the line's length.
 double lean(Vec4 a, Vec4 b, double width_px, const reference::Rect& viewport) {
-  if (!(a.w > 0 && b.w > 0))
-    return std::numeric_limits<double>::infinity();  // what is left of it may be short
+  // The visible part may be arbitrarily short.
+  if (!(a.w > 0 && b.w > 0)) return std::numeric_limits<double>::infinity();
   const double dx = std::abs(b.x / b.w - a.x / a.w) * viewport.width / 2,
                dy = std::abs(b.y / b.w - a.y / a.w) * viewport.height / 2;
   return std::min(dx, dy) == 0 ? 0 : width_px / 2 * std::min(dx, dy) / (dx * dx + dy * dy);
 }
 
-// In levels, from one end of a line to the other: as much as it may be where lights have a say. Textures have
-// a limit of their own.
+// Change of colour between the ends of a line, in levels; the maximum under lighting. Textures have a
+// separate limit.
 double color_change(std::uint32_t a, std::uint32_t b, const Draw& draw, const Mesh& mesh) {
   if (draw.shading == reference::Shading::kFlat) return 0;
   if (draw.lighting) return 255;
   if (!has_vertex_colors(draw, mesh)) return 0;
-  const Vec4 p = mesh.colors[a], q = mesh.colors[b];
+  const Vec4 p = mesh.colors[a];
+  const Vec4 q = mesh.colors[b];
   return 255 * std::max({std::abs(q.x - p.x), std::abs(q.y - p.y), std::abs(q.z - p.z), std::abs(q.w - p.w)});
 }
 
 Reason wide_line_limit(const Vertices& vertices, const Corners& corners, const Draw& draw, const Mesh& mesh,
                        const reference::Rect& viewport) {
-  if (draw.line_width < 1.5) return std::nullopt;  // rounded: 1 pixel
+  if (draw.line_width < 1.5) return std::nullopt;  // rounded to 1 pixel
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::size_t next = (i + 1) % corners.size();
     const double change = color_change(vertices[i], vertices[next], draw, mesh);
@@ -145,7 +148,8 @@ Reason wide_line_limit(const Vertices& vertices, const Corners& corners, const D
   return std::nullopt;
 }
 
-// The fourth is where the others put it: then it does not show along which diagonal a quad is split.
+// Whether the fourth value continues the other three linearly, so that the diagonal of the split is
+// invisible.
 bool is_even(const Vertices& quad, const std::vector<Vec4>& values) {
   const Vec4 rest = values[quad[0]] + values[quad[2]] - (values[quad[1]] + values[quad[3]]);
   return std::max({std::abs(rest.x), std::abs(rest.y), std::abs(rest.z), std::abs(rest.w)}) < 1e-9;
@@ -170,7 +174,7 @@ Reason polygon_limit(const Corners& polygon, const Draw& draw, bool two_sided_li
 
 using TexCoord = std::array<double, 2>;
 
-/// A line's end in clip space, and what texture it has there.
+/// An end of a line in clip space, with its texture coordinate.
 struct TexturedEnd {
   Vec4 at;
   TexCoord texcoord;
@@ -181,11 +185,11 @@ TexturedEnd mix(const TexturedEnd& a, const TexturedEnd& b, double t) {
           {(1 - t) * a.texcoord[0] + t * b.texcoord[0], (1 - t) * a.texcoord[1] + t * b.texcoord[1]}};
 }
 
-/// A textured line, of a mesh or of a polygon's boundary.
+/// A textured line: a line of a mesh, or an edge of a polygon's boundary.
 class TexturedLine {
  public:
   TexturedLine(TexturedEnd a, TexturedEnd b, const reference::Rect& viewport) {
-    constexpr double kInFront = 1.0 / 64;  // what is behind the eye is not there
+    constexpr double kInFront = 1.0 / 64;  // clips at a small fraction of the farther w
     if (std::max(a.at.w, b.at.w) <= 0) return;
     if (a.at.w < kInFront * b.at.w) a = mix(b, a, (1 - kInFront) * b.at.w / (b.at.w - a.at.w));
     if (b.at.w < kInFront * a.at.w) b = mix(a, b, (1 - kInFront) * a.at.w / (a.at.w - b.at.w));
@@ -199,12 +203,14 @@ class TexturedLine {
           std::abs(b.texcoord[i] - a.texcoord[i]) / major * std::max(a.at.w / b.at.w, b.at.w / a.at.w);
   }
 
-  // Mesa takes what it interpolates from where the line passes the middle of the pixel's column, or row of a
-  // steep one; equation 3.5 from the foot of the pixel's centre. A step along the line is longer than the one
-  // from column to column, too.
+  // Mesa interpolates where the line passes the middle of the pixel's column (row for steep lines). Equation
+  // 3.5 uses the projection of the pixel's centre onto the line. A step along the line is also longer than
+  // one from column to column.
   bool is_beyond_mesa(const reference::Texture& texture, double width_px) const {
-    constexpr double kLevelApart = 1.0 / 128, kLinearApart = 1.0 / 128,
-                     kNearestApart = 1.0 / 16;  // texels: a level or two; a pixel of 16
+    // In texels: one or two levels; a pixel in 16.
+    constexpr double kLevelApart = 1.0 / 128;
+    constexpr double kLinearApart = 1.0 / 128;
+    constexpr double kNearestApart = 1.0 / 16;
     if (asks_for_level(texture) && 0.5 * std::log2(1 + slant_ * slant_) > kLevelApart) return true;
     const double texels_px =
         std::max(slope_[0] * texture.image.width, is_row(texture) ? 0.0 : slope_[1] * texture.image.height);
@@ -214,12 +220,12 @@ class TexturedLine {
   }
 
  private:
-  double slant_ = 0;      // of the minor axis to the major one
-  TexCoord slope_{0, 0};  // the largest along it, for each pixel
+  double slant_ = 0;      // minor over major axis
+  TexCoord slope_{0, 0};  // largest derivative along the line, per pixel
 };
 
-// Cut quads are split along the diagonal from the second to the fourth vertex; that shows unless the halves
-// continue each other.
+// Clipped quads are split from the second to the fourth vertex. That is visible unless the values of the quad
+// are linear.
 bool cut_shows(const Vertices& quad, const Mesh& mesh) {
   const auto rest = [&](std::size_t i) {
     return mesh.texcoords[quad[0]][i] - mesh.texcoords[quad[1]][i] + mesh.texcoords[quad[2]][i] -
@@ -239,8 +245,9 @@ Reason textured_limit(const Vertices& vertices, const Corners& corners, const Dr
                        viewport)
               .is_beyond_mesa(scene.textures.at(*draw.texture), draw.line_width))
         return "a textured line that leans: Mesa interpolates along its major axis alone";
-  if (mesh.primitive == PrimitiveType::kQuads && has_mode(draw, PolygonMode::kFill) &&
-      (is_cut_in_depth(corners, camera) || is_cut_by_sides(corners)) && cut_shows(vertices, mesh))
+  const bool is_filled_quad = mesh.primitive == PrimitiveType::kQuads && has_mode(draw, PolygonMode::kFill);
+  const auto is_cut = [&] { return is_cut_in_depth(corners, camera) || is_cut_by_sides(corners); };
+  if (is_filled_quad && is_cut() && cut_shows(vertices, mesh))
     return "a textured quad that is cut: Mesa splits it along its other diagonal";
   return std::nullopt;
 }

@@ -1,4 +1,4 @@
-// What Mesa cannot follow of the primitives of a draw.
+// Primitives of a draw that Mesa cannot render as specified.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace tessera::mesa {
 
-/// @param draw  as as_drawn() gives it
-/// @param camera  in force at the draw
-/// @return the first reason found; nothing if Mesa can follow
+/// @param draw  as returned by as_drawn()
+/// @param camera  current at the draw
+/// @return the first reason found; none if Mesa can render the draw
 std::optional<std::string> primitive_limit(const reference::Draw& draw, const reference::Scene& scene,
                                            const reference::Camera& camera);
 

@@ -33,7 +33,7 @@ GLenum polygon_mode(reference::PolygonMode mode) {
   return GL_FILL;
 }
 
-// OpenGL lets an implementation round a size that lies halfway between two either way: it is rounded here.
+// OpenGL lets an implementation round sizes halfway between two integers either way; here they round up.
 GLfloat whole_size(double size) { return static_cast<GLfloat>(std::max(1.0, std::floor(size + 0.5))); }
 
 bool has_lines_alone(reference::PrimitiveType type, const reference::Draw& draw) {
@@ -41,10 +41,12 @@ bool has_lines_alone(reference::PrimitiveType type, const reference::Draw& draw)
   using enum reference::PolygonMode;
   if (type == kLines || type == kLineStrip || type == kLineLoop) return true;
   const auto [front, back] = draw.polygon_mode;
-  return type != kPoints && (front == kLine || back == kLine) && front != kPoint && back != kPoint;
+  const bool has_lines = front == kLine || back == kLine;
+  const bool has_points = front == kPoint || back == kPoint;
+  return type != kPoints && has_lines && !has_points;
 }
 
-// Beyond each side there is room for a line's whole width.
+// Leaves room for a line's whole width beyond each side.
 double growth(int size, double line_width) {
   double times = 2;
   while ((times - 1) * std::max(size, 1) < 2 * line_width) times *= 2;
@@ -78,8 +80,8 @@ Growth viewport_growth(reference::PrimitiveType type, const reference::Draw& dra
 
 void set_viewport(const Functions& gl, const reference::Rect& viewport, Growth growth) {
   const double width = growth.x * viewport.width, height = growth.y * viewport.height;
-  const double left = viewport.x - (width - viewport.width) / 2,
-               bottom = viewport.y - (height - viewport.height) / 2;
+  const double left = viewport.x - (width - viewport.width) / 2;
+  const double bottom = viewport.y - (height - viewport.height) / 2;
   gl.viewport_indexed(0, static_cast<GLfloat>(left), static_cast<GLfloat>(bottom),
                       static_cast<GLfloat>(width), static_cast<GLfloat>(height));
 }

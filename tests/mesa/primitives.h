@@ -1,4 +1,4 @@
-// Primitives as OpenGL draws them: which ones, their sides, sizes and modes.
+// Primitives in OpenGL: types, facing, sizes and polygon modes.
 #pragma once
 
 #include <vector>
@@ -13,20 +13,20 @@ void set_primitive_state(const Functions& gl, const reference::Draw& draw);
 
 reference::Rect viewport_of(const reference::Draw& draw, const reference::FrameBufferFormat& format);
 
-/// How many times as wide and high as the draw's a viewport is, with the same centre.
+/// Size of the enlarged viewport relative to the draw's, with the same centre.
 struct Growth {
   double x = 1, y = 1;
 };
 
-/// Mesa ends a line, in its whole width, where the line's middle leaves the viewport: for lines the viewport
-/// is larger, so that they end out of sight. By powers of two, so that no vertex moves; by 1 for what has
-/// points, which are dropped by their middles indeed.
+/// Mesa ends a line, in its whole width, where its centre line leaves the viewport. For lines the viewport is
+/// enlarged, so that they end outside the visible part. By powers of two, so that no vertex moves; by 1 for
+/// meshes with points, which are correctly dropped by their centres.
 Growth viewport_growth(reference::PrimitiveType type, const reference::Draw& draw,
                        const reference::Rect& viewport);
 
 void set_viewport(const Functions& gl, const reference::Rect& viewport, Growth growth);
 
-/// What brings clip space into the middle of a larger viewport.
+/// Maps clip space to the middle of an enlarged viewport.
 reference::Mat4 shrinking(Growth growth);
 
 /// @param vertices  at least one

@@ -46,7 +46,9 @@ int color_material_number(reference::ColorMaterial mode) {
 void set_program_lighting(const Programs& programs, const reference::Draw& draw,
                           const reference::LightModel& model, const std::vector<reference::Light>& lights,
                           const reference::Camera& camera, bool has_vertex_colors) {
-  Vectors light_values, materials, ambient;
+  Vectors light_values;
+  Vectors materials;
+  Vectors ambient;
   for (const reference::Light& light : lights) append_light(light_values, light, camera.view_from_world);
   append_material(materials, draw.material);
   append_material(materials, draw.back_material);

@@ -1,4 +1,4 @@
-// Lighting by programs.
+// Lighting by GLSL programs.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,11 @@
 
 namespace tessera::mesa {
 
-/// As many lights as a program takes.
+/// Maximum number of lights of a program.
 inline constexpr std::size_t kMaxProgramLights = 32;
 
-/// Tells the program in use of a lit draw. Two-sided lighting at the vertices wants
-/// GL_VERTEX_PROGRAM_TWO_SIDE, which this sets too. Lights go into eye space by the camera.
+/// Sets the uniforms of the current program for a lit draw. Two-sided lighting at the vertices needs
+/// GL_VERTEX_PROGRAM_TWO_SIDE, which is set here, too. Lights are transformed to eye space by the camera.
 void set_program_lighting(const Programs& programs, const reference::Draw& draw,
                           const reference::LightModel& model, const std::vector<reference::Light>& lights,
                           const reference::Camera& camera, bool has_vertex_colors);

@@ -1,13 +1,13 @@
-// The programs' texts.
+// GLSL sources.
 #pragma once
 
 namespace tessera::mesa {
 
-// The first line of every text.
+// First line of every source.
 inline constexpr const char* kVersion = "#version 130\n";
 
-// Shared by both kinds of lighting. A light takes seven vectors, in the order of append_light(); a material
-// five.
+// Shared by vertex and pixel lighting. A light takes seven vectors, in the order of append_light(); a
+// material five.
 inline constexpr const char* kLighting = R"(uniform int light_count;
 uniform vec4 light_values[7 * 32];
 uniform vec4 materials[2 * 5];  // front, back
@@ -18,7 +18,8 @@ vec3 unit(vec3 v) { float l = length(v); return l > 0.0 ? v / l : vec3(0.0); }
 float power(float x, float y) { return y == 0.0 ? 1.0 : x <= 0.0 ? 0.0 : pow(x, y); }
 
 vec4 lit(vec3 p, vec3 n, int side, vec4 vertex_color) {
-  vec4 ambient = materials[5 * side], diffuse = materials[5 * side + 1], specular = materials[5 * side + 2], emission = materials[5 * side + 3];
+  vec4 ambient = materials[5 * side], diffuse = materials[5 * side + 1];
+  vec4 specular = materials[5 * side + 2], emission = materials[5 * side + 3];
   float shininess = materials[5 * side + 4].x;
   if (color_material == 1 || color_material == 3) ambient = vertex_color;
   if (color_material == 1 || color_material == 2) diffuse = vertex_color;
@@ -28,7 +29,9 @@ vec4 lit(vec3 p, vec3 n, int side, vec4 vertex_color) {
   vec3 e = local_viewer != 0 ? unit(-p) : vec3(0.0, 0.0, 1.0);
   vec3 sum = emission.rgb + scene_ambient.rgb * ambient.rgb;
   for (int i = 0; i < light_count; ++i) {
-    vec4 position = light_values[7 * i + 3], spot = light_values[7 * i + 4], factors = light_values[7 * i + 5];
+    vec4 position = light_values[7 * i + 3];
+    vec4 spot = light_values[7 * i + 4];
+    vec4 factors = light_values[7 * i + 5];
     float exponent = light_values[7 * i + 6].x;
     bool is_spot = light_values[7 * i + 6].y != 0.0;
     vec3 to_light = position.xyz;  // w = 0: a unit vector already
@@ -44,7 +47,8 @@ vec4 lit(vec3 p, vec3 n, int side, vec4 vertex_color) {
       strength *= along < spot.w || along <= 0.0 ? 0.0 : power(along, exponent);
     }
     float facing = dot(to_light, n);
-    vec3 light = light_values[7 * i].rgb * ambient.rgb + max(facing, 0.0) * light_values[7 * i + 1].rgb * diffuse.rgb;
+    vec3 light = light_values[7 * i].rgb * ambient.rgb +
+                 max(facing, 0.0) * light_values[7 * i + 1].rgb * diffuse.rgb;
     if (facing > 0.0) {
       float cosine = phong_highlight != 0 ? dot(2.0 * facing * n - to_light, e) : dot(unit(to_light + e), n);
       light += power(max(cosine, 0.0), shininess) * light_values[7 * i + 2].rgb * specular.rgb;
@@ -57,8 +61,8 @@ vec4 lit(vec3 p, vec3 n, int side, vec4 vertex_color) {
 vec3 divided(vec4 p) { return p.xyz / p.w; }
 )";
 
-// Mesa's gl_NormalMatrix comes from the inverse of all 16 numbers, and not of the upper left 9 as GLSL has
-// it: another one where a matrix projects.
+// Mesa's gl_NormalMatrix uses the inverse of all 16 elements, not of the upper left 3x3 part as GLSL
+// specifies. They differ for projective matrices.
 inline constexpr const char* kEyeNormal = R"(
 vec3 eye_normal() {
   vec4 a = gl_ModelViewMatrix[0], b = gl_ModelViewMatrix[1], c = gl_ModelViewMatrix[2];
@@ -93,14 +97,13 @@ void main() {
 }
 )";
 
-// Shared by the fragment programs. The derivatives that the level of detail is made of are exact: 1/w and
-// what is multiplied by it are linear in the window, so that the differences between neighbours are those of
-// every point, and the quotient rule does the rest. Along a line both derivatives are shares of the one along
-// its length. What Mesa would take instead are differences of the quotients, and a logarithm that is straight
-// between powers of two. The environments are tables 3.22 and 3.23 of OpenGL 1.5; where they multiply by the
-// texel's alpha, one without alpha has 1.
+// Shared by the fragment programs. The derivatives for the level of detail are exact: 1/w and its products
+// are linear in the window, so differences between neighbours equal the derivative everywhere, and the
+// quotient rule gives the rest. Along a line both derivatives are parts of the one along its length. Mesa's
+// own level of detail uses differences of the quotients and a logarithm that is piecewise linear between
+// powers of two. The environments are tables 3.22 and 3.23 of OpenGL 1.5; a texel without alpha has alpha 1.
 inline constexpr const char* kTexturing = R"(uniform int texture_dimensions;  // 0: none
-uniform vec4 texture_size;       // in texels, a row's height 0; z: whether on a line; w: the level up to which it is magnified
+uniform vec4 texture_size;       // xy: texels, height 0 for 1-D; z: on a line; w: highest magnified level
 uniform int texture_env;         // modulate, replace, decal, blend, add
 uniform int texture_has_alpha;
 uniform vec4 texture_env_color;
@@ -109,7 +112,8 @@ uniform sampler1D row;
 
 float level_of_detail(vec2 at) {
   float r = gl_FragCoord.w;  // 1/w
-  vec2 dx = texture_size.xy * (dFdx(at * r) - at * dFdx(r)) / r, dy = texture_size.xy * (dFdy(at * r) - at * dFdy(r)) / r;
+  vec2 dx = texture_size.xy * (dFdx(at * r) - at * dFdx(r)) / r;
+  vec2 dy = texture_size.xy * (dFdy(at * r) - at * dFdy(r)) / r;
   float square = texture_size.z != 0.0 ? dot(dx, dx) + dot(dy, dy) : max(dot(dx, dx), dot(dy, dy));
   float level = 0.5 * log2(max(square, 1.0e-30));
   return level > texture_size.w ? level : 0.0;

@@ -20,7 +20,7 @@ int texture_env_number(reference::TextureEnv env) {
   return 0;
 }
 
-// OpenGL's constant c of 3.8.9, which Mesa takes to be 0 always.
+// OpenGL's constant c of 3.8.9; Mesa always uses 0.
 double magnified_up_to(const reference::Texture& texture) {
   const bool is_sharper =
       texture.min == MinFilter::kNearestMipmapNearest || texture.min == MinFilter::kNearestMipmapLinear;
@@ -49,10 +49,14 @@ void set_program_texture(const Programs& programs, const reference::Draw& draw, 
                          const reference::Texture* texture) {
   programs.set("image", kImageUnit);
   programs.set("row", kRowUnit);
-  programs.set("texture_dimensions", texture == nullptr ? 0 : is_row(*texture) ? 1 : 2);
-  if (texture == nullptr) return;
+  if (texture == nullptr) {
+    programs.set("texture_dimensions", 0);
+    return;
+  }
+  programs.set("texture_dimensions", is_row(*texture) ? 1 : 2);
   const reference::Image& image = texture->image;
-  Vectors size, env_color;
+  Vectors size;
+  Vectors env_color;
   append(size, {static_cast<double>(image.width), is_row(*texture) ? 0.0 : image.height,
                 draws_lines(draw, mesh) ? 1.0 : 0.0, magnified_up_to(*texture)});
   append(env_color, draw.texture_env_color);

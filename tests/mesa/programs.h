@@ -1,5 +1,5 @@
-// GLSL programs for what fixed functions cannot do: lighting at each vertex or at each pixel, and textures
-// whose level of detail has a say. Every program is made of parts and made when first wanted.
+// GLSL programs for features beyond the fixed-function pipeline: lighting at each vertex or pixel, and
+// textures that depend on the level of detail. Programs are composed of parts and compiled on first use.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@ namespace tessera::mesa {
 
 enum class LightingBy { kFixedFunctions, kVertexProgram, kFragmentProgram };
 
-using Vectors = std::vector<GLfloat>;  ///< four numbers each
+using Vectors = std::vector<GLfloat>;  ///< four components each
 
 inline void append(Vectors& vectors, reference::Vec4 v) {
   for (const double x : {v.x, v.y, v.z, v.w}) vectors.push_back(static_cast<GLfloat>(x));
@@ -19,15 +19,15 @@ inline void append(Vectors& vectors, reference::Vec4 v) {
 
 class Programs {
  public:
-  /// @param functions  of the current context, which must outlive this.
+  /// @param functions  of the current context; must outlive this object.
   explicit Programs(const Functions& functions) : functions_(functions) {}
 
-  /// Makes a program current, or fixed functions alone.
+  /// Makes a program current, or the fixed-function pipeline.
   ///
-  /// @param texturing  whether a program applies textures; lighting at the pixels leaves no choice
+  /// @param texturing  whether the program applies textures; ignored for lighting at the pixels
   void use(LightingBy lighting, bool texturing);
 
-  /// Set a uniform of the program in use, if there is one and it has it.
+  /// Sets a uniform of the current program. No effect without a program or if it lacks the uniform.
   void set(const char* uniform, int value) const;
   void set(const char* uniform, const Vectors& values) const;
 

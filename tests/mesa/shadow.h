@@ -7,12 +7,12 @@
 
 namespace tessera::mesa {
 
-/// The draw itself, or that of its shadow: projected after the object's transform, unlit, untextured, of one
-/// colour. What a shadow is drawn with keeps `shadow_on`, by which its mesh's colours have no say.
-/// @param lights  in force at the draw
+/// Returns the draw itself, or the draw of its shadow: projected after the object's transform, unlit,
+/// untextured, of one colour. The latter keeps `shadow_on`, so that the mesh's colours are ignored.
+/// @param lights  current at the draw
 reference::Draw as_drawn(const reference::Draw& draw, const std::vector<reference::Light>& lights);
 
-/// Whether the mesh's own colours colour a draw.
+/// Whether a draw uses the mesh's vertex colours.
 bool has_vertex_colors(const reference::Draw& draw, const reference::Mesh& mesh);
 
 }  // namespace tessera::mesa

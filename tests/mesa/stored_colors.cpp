@@ -14,9 +14,11 @@ std::uint8_t shown_level(double c, int bits) {
   return static_cast<std::uint8_t>(std::lround(255 * std::floor(c * top + 0.5) / top));
 }
 
-// Blue has a third of the bits; an odd one goes to green, a second one to red.
+// Blue has a third of the bits; a first remaining bit goes to green, a second one to red.
 Shown split_levels(const std::array<double, 3>& c, int bits) {
-  const int blue = bits / 3, green = (bits + 2) / 3, red = bits - green - blue;
+  const int blue = bits / 3;
+  const int green = (bits + 2) / 3;
+  const int red = bits - green - blue;
   return {shown_level(c[0], red), shown_level(c[1], green), shown_level(c[2], blue)};
 }
 
@@ -39,6 +41,11 @@ Shown nearest_entry(const std::array<double, 3>& c, const std::vector<reference:
   return best;
 }
 
+Shown shown_color(const std::array<double, 3>& c, const reference::FrameBufferFormat& format) {
+  if (format.color_mode == reference::ColorMode::kIndex) return nearest_entry(c, format.palette);
+  return format.color_bits < 3 ? luminance_level(c, format.color_bits) : split_levels(c, format.color_bits);
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> shown_colors(const std::vector<float>& colors,
@@ -49,9 +56,7 @@ std::vector<std::uint8_t> shown_colors(const std::vector<float>& colors,
     for (std::size_t at = row * row_floats; at < (row + 1) * row_floats; at += 3) {
       std::array<double, 3> c;
       for (std::size_t i = 0; i < 3; ++i) c[i] = std::clamp<double>(colors[at + i], 0, 1);
-      const Shown pixel = format.color_mode == reference::ColorMode::kIndex ? nearest_entry(c, format.palette)
-                          : format.color_bits < 3 ? luminance_level(c, format.color_bits)
-                                                  : split_levels(c, format.color_bits);
+      const Shown pixel = shown_color(c, format);
       shown.insert(shown.end(), pixel.begin(), pixel.end());
     }
   return shown;

@@ -10,19 +10,19 @@ namespace {
 
 using Reason = std::optional<std::string>;
 
-constexpr int kLargestTexture = 16384;  // of Mesa, which draws bitmaps and images by textures too
+// Mesa's limit; also for bitmaps and images, which it draws as textures.
+constexpr int kLargestTexture = 16384;
 
 bool is_too_large(int width, int height) { return std::max(width, height) > kLargestTexture; }
 
-// Mesa rounds the position: with a zoom of 1 that changes nothing but where it lies halfway between two
-// pixels.
+// Mesa rounds the raster position. With a zoom of 1 this matters only halfway between two pixels.
 bool is_moved(double at, double zoom) {
   const double fraction = at - std::floor(at);
   return fraction != 0 && (std::abs(zoom) != 1 || fraction == 0.5);
 }
 
-// Whether the centre of a pixel lies between two of an image's: Mesa finds the texel in float and takes
-// either.
+// Whether a pixel's centre lies on the border between two image pixels. Mesa finds the texel in float and may
+// choose either.
 bool meets_a_centre(double at, double zoom, int count) {
   for (int n = 1; n <= count; ++n) {
     const double border = at + zoom * n;

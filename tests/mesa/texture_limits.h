@@ -1,4 +1,4 @@
-// What Mesa cannot follow of textures and images.
+// Textures and images that Mesa cannot render as specified.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace tessera::mesa {
 
-/// @param draw  as as_drawn() gives it
-/// @return the first reason found; nothing if Mesa can follow
+/// @param draw  as returned by as_drawn()
+/// @return the first reason found; none if Mesa can render the draw
 std::optional<std::string> texture_limit(const reference::Draw& draw, const reference::Scene& scene);
 
 std::optional<std::string> bitmap_limit(const reference::Bitmap& bitmap);

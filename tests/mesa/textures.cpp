@@ -42,7 +42,7 @@ GLint environment(reference::TextureEnv env) {
   return GL_MODULATE;
 }
 
-// 8 bits a channel, so that what is filtered is exactly the image.
+// 8 bits per channel, so that the filters see exactly the image.
 GLint stored_format(const reference::Image& image) {
   switch (image.channels) {
     case 1: return GL_LUMINANCE8;
@@ -70,7 +70,7 @@ GLenum target(const reference::Texture& texture) { return is_row(texture) ? GL_T
 
 }  // namespace
 
-// Each level is the reference's: how a mipmap is made is left open by OpenGL.
+// Each mipmap level comes from the reference: OpenGL does not specify how mipmaps are computed.
 GLuint Textures::uploaded(std::size_t number) {
   GLuint& name = names_.at(number);
   if (name != 0) return name;

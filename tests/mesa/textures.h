@@ -1,4 +1,4 @@
-// The scene's textures, and which of them a draw gets.
+// The scene's textures, and their binding for draws.
 #pragma once
 
 #include <vector>
@@ -7,20 +7,20 @@
 
 namespace tessera::mesa {
 
-/// Where programs find a texture: OpenGL allows a unit one kind of sampler at a time.
-inline constexpr int kImageUnit = 0;  ///< 2-D; fixed functions look here for both
+/// Texture units of programs: OpenGL allows one kind of sampler per unit.
+inline constexpr int kImageUnit = 0;  ///< 2-D; the fixed-function pipeline uses this unit for both kinds
 inline constexpr int kRowUnit = 1;    ///< 1-D
 
-/// One row high: OpenGL's 1-D texture, of which t has no say.
+/// An image one row high is OpenGL's 1-D texture; t is ignored.
 inline bool is_row(const reference::Texture& texture) { return texture.image.height == 1; }
 
 class Textures {
  public:
-  /// @param functions  of the current context; it and the scene must outlive this.
+  /// @param functions  of the current context; it and the scene must outlive this object.
   Textures(const Functions& functions, const reference::Scene& scene)
       : functions_(functions), textures_(scene.textures), names_(scene.textures.size()) {}
 
-  /// Binds the draw's texture and sets fixed functions to its environment; without one, turns texturing off.
+  /// Binds the draw's texture and sets the fixed-function environment; without a texture, disables texturing.
   void use(const reference::Draw& draw);
 
   void use_none();
@@ -30,7 +30,7 @@ class Textures {
 
   const Functions& functions_;
   const std::vector<reference::Texture>& textures_;
-  std::vector<GLuint> names_;  // 0: not uploaded yet
+  std::vector<GLuint> names_;  // 0: not uploaded
 };
 
 }  // namespace tessera::mesa

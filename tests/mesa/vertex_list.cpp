@@ -15,7 +15,7 @@ using reference::Mesh;
 using reference::Primitive;
 using reference::Vec3;
 
-/// The same mesh with vertices of its own for each number in its list; no more than positions are kept.
+/// The same mesh with one vertex per element of its index list; keeps only the positions.
 Mesh unshared(const Mesh& mesh) {
   Mesh result;
   result.primitive = mesh.primitive;
@@ -30,8 +30,8 @@ Vec3 point(const Mesh& mesh, std::size_t corner) {
   return (1 / p.w) * reference::xyz(p);
 }
 
-// The sum over the triangles between the first corner and each side, as long as twice their areas. Null for
-// points and lines, and for what has corners at infinity.
+// Sum over the fan of triangles around the first corner, with a length of twice their area. Null for points,
+// lines, and faces with corners at infinity.
 Vec3 face_vector(const Mesh& mesh, const Primitive& face) {
   const auto from_first = [&](std::size_t i) {
     return point(mesh, face.vertices[i]) - point(mesh, face.vertices[0]);
@@ -48,11 +48,12 @@ bool precedes(Vec3 a, Vec3 b) {
   return a.z < b.z;
 }
 
-// Sorts the corners of all faces by place and gives each run of equal places the sum of its faces.
+// Sorts the corners of all faces by position and assigns each run of equal positions the sum of its faces.
 std::vector<Vec3> smooth_normals(const Mesh& mesh) {
   struct FaceCorner {
     std::uint32_t vertex;
-    Vec3 place, face;
+    Vec3 place;
+    Vec3 face;
   };
   std::vector<FaceCorner> corners;
   for (std::size_t i = 0; i < reference::primitive_count(mesh); ++i) {
@@ -74,8 +75,8 @@ std::vector<Vec3> smooth_normals(const Mesh& mesh) {
   return normals;
 }
 
-// Each vertex of a list provokes one primitive at most; which, is OpenGL's affair too. A vertex that provokes
-// none is not looked at; it gets a normal that any lighting can take.
+// Each vertex of a list provokes at most one primitive, under the given convention. The normals of all other
+// vertices are unused and get a value that is valid for any lighting.
 std::vector<Vec3> flat_normals(const Mesh& mesh, reference::ProvokingVertex convention) {
   std::vector<Vec3> normals(mesh.positions.size(), Vec3{0, 0, 1});
   for (std::size_t i = 0; i < reference::primitive_count(mesh); ++i) {

@@ -1,5 +1,5 @@
-// The vertices of a draw as OpenGL gets them: one for each number in the mesh's list, nothing shared, so that
-// a face may have a normal of its own.
+// The vertices of a draw for OpenGL: one per element of the mesh's index list, none shared, so that each face
+// may have its own normal.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@ struct Vertex {
   std::array<double, 2> texcoord;
 };
 
-/// Meshes without normals get the face's (flat shading) or the area-weighted mean of the faces that meet at
-/// the very same position; points and lines have no faces and get null normals. Draws without vertex colours
-/// get the material's diffuse colour, which is what unlit ones show.
+/// Meshes without normals get the face normal (flat shading) or the area-weighted mean of the faces with a
+/// corner at the same position; points and lines have no faces and get null normals. Draws without vertex
+/// colours get the material's diffuse colour, which unlit draws show.
 std::vector<Vertex> vertex_list(const reference::Mesh& mesh, const reference::Draw& draw);
 
 }  // namespace tessera::mesa

@@ -1,5 +1,5 @@
-// The accumulation buffer through frames, against quotients of whole numbers: each command's rounding, what
-// 256 passes lose, and the ends of the range.
+// Accumulation buffer through whole frames, against exact integer quotients: the rounding of each command,
+// the loss over 256 passes, and saturation at the ends of the range.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ FrameBufferFormat format_of(int color_bits, int bits) {
           .accumulation_bits = bits};
 }
 
-/// A picture whose components are any of 256 levels, before the buffer rounds them.
+/// An image with random 8-bit components.
 struct Picture {
   std::vector<std::uint8_t> texels;
 
@@ -47,12 +47,13 @@ struct Picture {
   }
 };
 
-/// What a command is to do with each component: the level and the colour's level that it finds -> the exact
-/// value of what it leaves, in levels.
+/// Expected result of a command for one component: (stored level, colour level) -> exact value in
+/// accumulation levels.
 using Exact = std::function<Ratio(std::int64_t level, std::int64_t color, std::int64_t levels_of_color)>;
 
-// Each command rounds once, to the nearest. Its products are those of doubles: three roundings of 2^-53, of
-// products that are within 2^33 levels at 32 bits and 2^17 at 16 wherever they do not saturate.
+// Error beyond half a level. Each command rounds once, to the nearest level. Its products are computed in
+// double with three roundings of 2^-53; unless they saturate, products are below 2^33 levels at 32 bits and
+// below 2^17 at 16 bits.
 long double beyond_half(int bits) { return 3 * std::ldexp(1.0L, (bits == 16 ? 17 : 33) - 53); }
 
 class Commands {
@@ -61,10 +62,10 @@ class Commands {
       : buffer_(format_of(color_bits, bits)), frame_(buffer_), split_(buffer_.format()), bits_(bits) {}
 
   void paint(Picture picture) {
-    painted_.push_back(std::move(picture));  // borrowed until the frame is finished
+    painted_.push_back(std::move(picture));  // Borrowed until the frame is finished.
     painted_.back().draw(frame_);
   }
-  /// Runs it and adds to the largest distance from what it is to leave.
+  /// Runs the command and raises `worst` to the largest distance from the expected result.
   void run(const Accum& accum, const Exact& exact, long double& worst) {
     renderer_.finish(frame_);
     painted_.clear();
@@ -81,7 +82,7 @@ class Commands {
         const std::int64_t nearest = saturated(value.rounded(), bits_);
         const bool is_saturated = nearest != value.rounded();
         if (is_saturated && after[i][c] != nearest)
-          ADD_FAILURE() << "at the end of the range: " << after[i][c] << ", not " << nearest;
+          ADD_FAILURE() << "saturated to " << after[i][c] << ", expected " << nearest;
         if (!is_saturated) update_worst(worst, value.distance(after[i][c]));
       }
   }
@@ -99,7 +100,7 @@ class Commands {
   int bits_;
 };
 
-TEST(Accumulation, EachCommandRoundsOnce) {
+TEST(NumericsAccumulation, EachCommandRoundsOnce) {
   for (const int bits : {16, 32}) {
     long double worst = 0;
     for (const int color_bits : {1, 2, 3, 8, 15, 16, 23, 24}) {
@@ -133,7 +134,7 @@ TEST(Accumulation, EachCommandRoundsOnce) {
                 {.op = AccumOp::accum, .value = value},
                 [&](auto level, auto color, auto levels) {
                   const Ratio term = v * (color * whole) / levels;
-                  return Ratio{term.over + level * term.under, term.under};
+                  return Ratio{term.numerator + level * term.denominator, term.denominator};
                 },
                 worst);
             break;
@@ -141,7 +142,7 @@ TEST(Accumulation, EachCommandRoundsOnce) {
             commands.run(
                 {.op = AccumOp::add, .value = value},
                 [&](auto level, auto, auto) {
-                  return Ratio{v.over * whole + level * v.under, v.under};
+                  return Ratio{v.numerator * whole + level * v.denominator, v.denominator};
                 },
                 worst);
             break;
@@ -154,15 +155,15 @@ TEST(Accumulation, EachCommandRoundsOnce) {
         if (HasFailure()) return;
       }
     }
-    EXPECT_GT(worst, 0.49L) << "no number between two levels came by";
+    EXPECT_GT(worst, 0.49L) << "no test value near the middle of two levels";
     expect_within("accumulation, one command, " + std::to_string(bits) + " bits, beyond half a level",
                   std::max(0.0L, worst - 0.5L), beyond_half(bits), "levels of accumulation");
   }
 }
 
-// Colour levels are lost where 256 roundings of half a level of 2^15 or 2^31 add up to that of the colour:
-// 256 / 2 / 32767 of 1.0 is 0.996 levels of 255.
-TEST(Accumulation, Of256PassesLosesAtMostOneLevelAt16BitsAndNoneAt32) {
+// 256 roundings of half a level of 2^15 or 2^31 may add up to colour levels: 256 / 2 / 32767 of 1.0 is 0.996
+// levels of 255.
+TEST(NumericsAccumulation, Over256PassesLosesAtMostOneLevelAt16BitsAndNoneAt32) {
   for (const int bits : {16, 32}) {
     long double worst = 0;
     for (int color_bits = 1; color_bits <= 24; ++color_bits)
@@ -186,8 +187,8 @@ TEST(Accumulation, Of256PassesLosesAtMostOneLevelAt16BitsAndNoneAt32) {
         for (std::size_t i = 0; i < before.size(); ++i)
           for (std::size_t c = 0; c < 4; ++c) {
             const bool has = split.bits[c] > 0;
-            const std::int64_t level = has ? split.level(before[i], c) : 1,
-                               levels = has ? split.levels(c) : 1;
+            const std::int64_t level = has ? split.level(before[i], c) : 1;
+            const std::int64_t levels = has ? split.levels(c) : 1;
             ASSERT_EQ(sums[i][c],
                       saturated(256 * (Ratio{level * one_of(bits), 256 * levels}.rounded()), bits))
                 << "level " << level << " of " << levels;
@@ -199,9 +200,8 @@ TEST(Accumulation, Of256PassesLosesAtMostOneLevelAt16BitsAndNoneAt32) {
   }
 }
 
-// Of different pictures: what comes back is the level nearest to their mean, but for what the passes'
-// roundings move it.
-TEST(Accumulation, Of256PicturesIsTheirMean) {
+// 256 different pictures: the result is the level nearest to their mean, within the rounding of the passes.
+TEST(NumericsAccumulation, AveragesOf256PicturesMatchTheirMean) {
   for (const int bits : {16, 32}) {
     long double worst = 0;
     for (const int color_bits : {3, 16, 24}) {
@@ -225,15 +225,15 @@ TEST(Accumulation, Of256PicturesIsTheirMean) {
           if (split.bits[c] > 0)
             update_worst(worst, Ratio{sums[i][c], 256}.distance(split.level(after[i], c)));
     }
-    // Half a level of the last rounding, and 256 halves of the passes' (0.5 / 32767 or 0.5 / (2^31 - 1)
-    // of 1.0 each, 255 levels).
+    // Half a level of the final rounding plus 256 half levels of the passes (each 0.5 / 32767 or 0.5 / (2^31
+    // - 1) of 1.0, times 255 levels).
     expect_within("accumulation, mean of 256 pictures, " + std::to_string(bits) + " bits", worst,
                   0.5L + 128 * 255.0L / static_cast<long double>(one_of(bits)) + 0x1p-40L, "levels of 255");
   }
 }
 
-// Every level of 16 bits, and as many of 32, goes back to the nearest of the colour's levels.
-TEST(Accumulation, GivesBackTheNearestLevel) {
+// Every level of 16 bits, and as many levels of 32 bits, returns the nearest colour level.
+TEST(NumericsAccumulation, ReturnsTheNearestColorLevel) {
   constexpr int kSide = 256;
   for (const int bits : {16, 32})
     for (int color_bits = 1; color_bits <= 24; ++color_bits) {
@@ -242,8 +242,7 @@ TEST(Accumulation, GivesBackTheNearestLevel) {
       FrameBuffer buffer(format);
       Frame frame(buffer);
       Renderer renderer({.threads = 1});
-      // The level of a pixel is the sum of what its row and its column add, and a little of each colour's
-      // own.
+      // The level of a pixel is the sum of a row term, a column term and a small term per component.
       const double step = 1.0 / static_cast<double>(one_of(16));
       for (int i = 0; i < kSide; ++i) {
         frame.accumulate(
@@ -262,18 +261,18 @@ TEST(Accumulation, GivesBackTheNearestLevel) {
         for (std::size_t i = 0; i < words.size(); ++i)
           for (std::size_t c = 0; c < 4; ++c) {
             if (split.bits[c] == 0) continue;
-            // All components hold the same level: so does their luminance.
+            // All components hold the same level, so the luminance equals it.
             const Ratio exact = Ratio::of(value) * (levels[i][c] * split.levels(c)) / one_of(bits);
             const std::int64_t most = split.levels(c);
-            const Ratio clamped = exact.over <= 0                    ? Ratio{}
-                                  : exact.over >= most * exact.under ? Ratio{most, 1}
-                                                                     : exact;
+            Ratio clamped = exact;
+            if (exact.numerator <= 0) clamped = Ratio{};
+            if (exact.numerator >= most * exact.denominator) clamped = Ratio{most, 1};
             update_worst(worst, clamped.distance(split.level(words[i], c)));
           }
-        // In doubles, but for the three weights of luminance, which are floats: off by 2^-26, 2^-25 and 2^-28
-        // at most.
-        const long double beyond = std::max(0.0L, worst - 0.5L),
-                          bound = (color_bits <= 2 ? 3 * 13 * 0x1p-28L : 0) + 255 * 4 * 0x1p-53L;
+        // Computed in double, except for the three luminance weights, which are floats: off by at most 2^-26,
+        // 2^-25 and 2^-28.
+        const long double beyond = std::max(0.0L, worst - 0.5L);
+        const long double bound = (color_bits <= 2 ? 3 * 13 * 0x1p-28L : 0) + 255 * 4 * 0x1p-53L;
         EXPECT_LE(beyond, bound) << color_bits << " colour bits, " << bits << " bits";
         if (color_bits == 24 && value == 1)
           expect_within("accumulation, return, " + std::to_string(bits) + " bits, beyond half a level",

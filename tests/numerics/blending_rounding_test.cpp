@@ -1,11 +1,12 @@
-// Blending against long double: every pair of levels for the usual factors, every factor and equation for
-// some, in buffers of 1 to 24 bits.
+// Blending against long double: every pair of levels for the common factors, every factor and equation for
+// selected levels, in buffers of 1 to 24 bits.
 //
-// The bound, in u = 2^-24 of 1.0. A stored level and a texel become components by a float's 1 / levels and a
-// product: off by 1 and 0.5 at most. A factor is one of them, or 1 minus it: 0.5 more. Each product of a
-// component and a factor is off by the sum of both, 3.5; one of the two is rounded (0.5), and so is their sum
-// (0.5 where it is no more than 1, which a greater one becomes). That is 8. The result times the levels, plus
-// a half, is rounded once more (2^(bits - 25)) before its fraction is cut off.
+// Error bound in u = 2^-24 of 1.0. A stored level or texel becomes a component by 1 / levels in float and a
+// product: errors of up to 1 u and 0.5 u. A factor is a component or 1 minus a component: another 0.5 u. A
+// product of component and factor carries the sum of both errors, 3.5 u. One of the two products is rounded
+// (0.5 u), and so is their sum (0.5 u while it is at most 1; larger sums are clamped to 1). The total is 8 u.
+// The result times the level count, plus a half, is rounded once more (2^(bits - 25)) before the fraction is
+// cut off.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,8 +59,7 @@ Components blended(const BlendState& state, const Components& s, const Component
   return result;
 }
 
-/// A picture of bytes, r g b a, drawn over another, and how far what comes out is from what it should be:
-/// more than half a level.
+/// Draws an RGBA byte image over another and measures the distance from the exact result beyond half a level.
 class Blender {
  public:
   Blender(FrameBufferFormat format, InstructionSet set)
@@ -83,7 +83,7 @@ class Blender {
         },
         state);
   }
-  /// The same with a triangle's constant colour in every pixel.
+  /// Same, with a triangle of constant colour in every pixel.
   void blend(const std::vector<std::uint8_t>& below, const Color& color, const BlendState& state) {
     static const MeshData all = whole_window();
     Frame frame(buffer_);
@@ -103,7 +103,7 @@ class Blender {
         },
         state);
   }
-  /// Beyond half a level, of buffers with that many bits a component.
+  /// Largest error beyond half a level over buffers with `bits` bits per component.
   long double worst(int bits) const { return worst_[static_cast<std::size_t>(bits)]; }
   const ComponentBits& split() const { return split_; }
 
@@ -125,7 +125,7 @@ class Blender {
         const long double beyond =
             std::abs(static_cast<long double>(split_.level(after[i], c)) - exact[c] * split_.levels(c)) -
             0.5L;
-        // Luminance: weights and sums of floats, 1.875 u more (color_rounding_test.cpp).
+        // Luminance adds 1.875 u for its float weights and sums (color_rounding_test.cpp).
         const long double bound = bound_of(bits) + (grey && c < 3 ? split_.levels(c) * 1.875L * 0x1p-24L : 0);
         ASSERT_LE(beyond, bound) << "factors " << static_cast<int>(state.src) << ", "
                                  << static_cast<int>(state.dst) << ", equation "
@@ -147,7 +147,7 @@ class Blender {
 using enum BlendFactor;
 using enum BlendEquation;
 
-TEST(BlendingRounding, OfEveryPairOfLevelsWithTheUsualFactors) {
+TEST(BlendingRounding, EveryPairOfLevelsWithTheCommonFactors) {
   const BlendState states[] = {
       {.src = src_alpha, .dst = one_minus_src_alpha},
       {.src = src_alpha, .dst = one},
@@ -167,7 +167,8 @@ TEST(BlendingRounding, OfEveryPairOfLevelsWithTheUsualFactors) {
   Blender blender(
       {.width = 256, .height = 256, .depth = DepthFormat::none, .stencil_bits = 0, .alpha_bits = 8},
       InstructionSet::automatic);
-  std::vector<std::uint8_t> below(4 * 65536), above(below.size());
+  std::vector<std::uint8_t> below(4 * 65536);
+  std::vector<std::uint8_t> above(below.size());
   int turn = 0;
   for (const BlendState& state : states)
     for (const int alpha : {0, 1, 85, 128, 254, 255}) {
@@ -185,7 +186,7 @@ TEST(BlendingRounding, OfEveryPairOfLevelsWithTheUsualFactors) {
                 bound_of(8), "levels of 255");
 }
 
-TEST(BlendingRounding, OfEveryFactorAndEquationInEveryFormat) {
+TEST(BlendingRounding, EveryFactorAndEquationInEveryFormat) {
   Random random(8);
   for (const int color_bits : {1, 2, 3, 4, 8, 15, 16, 20, 24})
     for (const int alpha_bits : {0, 8})
@@ -219,7 +220,8 @@ TEST(BlendingRounding, OfEveryFactorAndEquationInEveryFormat) {
                              .color = color()};
             if (turn % 3 == 1) state.src_alpha = static_cast<BlendFactor>(random.next() % 15);
             if (turn % 3 == 2) state.dst_alpha = static_cast<BlendFactor>(random.next() % 15);
-            const std::vector<std::uint8_t> below = picture(), above = picture();
+            const std::vector<std::uint8_t> below = picture();
+            const std::vector<std::uint8_t> above = picture();
             Blender& blender = blenders[static_cast<std::size_t>(turn) % blenders.size()];
             if (turn % 2 == 0) blender.blend(below, above, state);
             else blender.blend(below, color(), state);

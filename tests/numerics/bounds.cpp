@@ -11,7 +11,8 @@ namespace tessera::test {
 namespace {
 
 struct Row {
-  std::string quantity, unit;
+  std::string quantity;
+  std::string unit;
   long double measured, promised;
   std::optional<long double> mesas{};
 };

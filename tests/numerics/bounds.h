@@ -1,5 +1,5 @@
-// Errors as they are measured beside the bounds that README.md promises. The table of all stands at the end
-// of what numerics_tests prints.
+// Compares measured errors with the bounds in README.md. numerics_tests prints the table of all rows when it
+// ends.
 #pragma once
 
 #include <cmath>
@@ -9,9 +9,9 @@
 
 namespace tessera::test {
 
-/// Raises `worst` to the largest of the errors, where one is larger. A NaN counts as infinity, which no bound
-/// allows: std::max would pass it over.
-/// @pre worst is a number
+/// Raises `worst` to the largest of the errors.
+/// A NaN counts as infinity, which exceeds every bound; std::max would ignore it.
+/// @pre worst is not NaN
 template <std::floating_point Number, class... Errors>
 void update_worst(Number& worst, Errors... errors) {
   const auto keep = [&worst](Number error) {
@@ -21,11 +21,11 @@ void update_worst(Number& worst, Errors... errors) {
   (keep(static_cast<Number>(errors)), ...);
 }
 
-/// Expects measured <= promised, which a NaN is not, and adds a row to the table.
+/// Expects measured <= promised (false for NaN) and adds a row to the table.
 void expect_within(const std::string& quantity, long double measured, long double promised,
                    const std::string& unit);
 
-/// Puts what Mesa comes to beside a quantity that was measured; nothing is expected of it.
+/// Adds Mesa's figure to the row of a measured quantity. Nothing is expected of it.
 void report_mesa_figure(const std::string& quantity, long double mesas);
 
 }  // namespace tessera::test

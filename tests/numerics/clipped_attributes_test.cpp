@@ -1,10 +1,10 @@
-// Attributes where a plane cuts an edge, beside fractions: of triangles with one vertex beyond the near or
-// the far plane, anything between a part of an edge and one 2^40 times as long as what is seen of it, also
-// along the plane.
+// Attributes at the point where a plane cuts an edge, against exact fractions. Triangles have one vertex
+// beyond the near or far plane. The edge is up to 2^40 times as long as its visible part, also measured along
+// the plane.
 //
-// u = 2^-24, w = 2^-53. Where an edge is cut, t = first / (first - second): each distance is rounded by w,
-// which counts 1 - t times in t, so does their difference, the quotient and the attributes' difference. t (2
-// (1 - t) + 3) w is 3 w at most; then the sum is rounded to a double and to a float.
+// u = 2^-24, w = 2^-53. The cut is at t = first / (first - second). The roundings are: w of each distance,
+// which contribute 1 - t times to t; the difference of the distances; the quotient; the difference of the
+// attributes. t (2 (1 - t) + 3) w is at most 3 w. The sum is then rounded to double and to float.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -20,15 +20,16 @@ namespace tessera::test {
 using namespace detail;
 namespace {
 
-/// What is cut, with w above 0, so that no other plane cuts it.
+/// Clipping parameters with w above 0, so that no other plane cuts the triangle.
 struct Cut {
-  bool reversed, far;
+  bool reversed;
+  bool far;
   mpq_class distance(const ClipPosition& p) const {
     const mpq_class z(p.z), w(p.w);
     if (far) return reversed ? z : mpq_class(w - z);
     return reversed ? mpq_class(w - z) : mpq_class(z + w);
   }
-  /// z of a point that is so far inside, about.
+  /// Approximate z of a point at signed distance `distance` inside the plane.
   double z_at(double distance, double w) const {
     if (far) return reversed ? distance : w - distance;
     return reversed ? w - distance : distance - w;
@@ -45,7 +46,8 @@ class AnyTriangle {
     const bool along = dice_.maybe();
     const int octaves = dice_.maybe() ? 40 : 2;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double w = size(octaves), depth = (along ? 1 : dice_.unit() * w);
+      const double w = size(octaves);
+      const double depth = (along ? 1 : dice_.unit() * w);
       v[k].position = {(dice_.unit() - 0.5) * w, (dice_.unit() - 0.5) * w,
                        cut.z_at(k == 0 ? -depth * (dice_.maybe() ? size(octaves) : 1) : depth, w), w};
       v[k].attributes[kMeasured] = attribute();
@@ -55,7 +57,7 @@ class AnyTriangle {
     float& second = v[1].attributes[kMeasured];
     switch (dice_.between(0, 2)) {
       case 0: second = std::nextafter(first, 1.0f); break;
-      case 1:  // next to nothing is left of their sum
+      case 1:  // The attributes nearly cancel.
         second = std::copysign(second, -first);
         v[1].position.z = cut.z_at(cut.distance(v[0].position).get_d() * second / first, v[1].position.w);
         break;
@@ -72,10 +74,12 @@ class AnyTriangle {
   Rng dice_;
 };
 
-TEST(ClippedAttributes, AreRoundedOnce) {
+TEST(ClippedAttributes, RoundOnceAtTheCut) {
   AnyTriangle any(81);
   long double worst = 0;
-  int cuts = 0, far_from_ends = 0, cancelled = 0;
+  int cuts = 0;
+  int far_from_ends = 0;
+  int cancelled = 0;
   for (int n = 0; n < (long_tests() ? 1000000 : 20000); ++n) {
     ClipVertex v[3];
     const Cut cut = any.next(v);
@@ -85,8 +89,8 @@ TEST(ClippedAttributes, AreRoundedOnce) {
     t.reversed = cut.reversed;
     const mpq_class distances[3] = {cut.distance(v[0].position), cut.distance(v[1].position),
                                     cut.distance(v[2].position)};
-    if (distances[0] >= 0 || distances[1] <= 0 || distances[2] <= 0)
-      continue;  // rounding has put one onto the plane, or another plane cuts
+    // Skip if rounding moved a vertex onto the plane, or if another plane cuts the triangle.
+    if (distances[0] >= 0 || distances[1] <= 0 || distances[2] <= 0) continue;
     const std::uint8_t outcodes = compute_outcode(t, v[0].position) | compute_outcode(t, v[1].position) |
                                   compute_outcode(t, v[2].position);
     if (outcodes != (cut.far ? kBehindFar : kBeforeNear)) continue;
@@ -99,17 +103,19 @@ TEST(ClippedAttributes, AreRoundedOnce) {
       };
       const ClipVertex* const found =
           std::find_if(polygon.vertices, polygon.vertices + polygon.count, is_cut);
-      if (found == polygon.vertices + polygon.count)
-        continue;  // the cut is nearer to the end than floats tell
-      const mpq_class a(v[0].attributes[kMeasured]), b(v[end].attributes[kMeasured]),
-          along = distances[0] / (distances[0] - distances[end]), exact = a + along * (b - a);
+      // The cut is closer to the end point than float resolution.
+      if (found == polygon.vertices + polygon.count) continue;
+      const mpq_class a(v[0].attributes[kMeasured]);
+      const mpq_class b(v[end].attributes[kMeasured]);
+      const mpq_class along = distances[0] / (distances[0] - distances[end]);
+      const mpq_class exact = a + along * (b - a);
       const float at = found->attributes[kMeasured];
       if (a == b) {
         EXPECT_EQ(at, v[0].attributes[kMeasured]);
         continue;
       }
-      const mpq_class off = std::isfinite(at) ? abs(mpq_class(at) - exact) : abs(b - a),
-                      allowed = abs(exact) * mpq_class(0x1p-24 * (1 + 0x1p-20));
+      const mpq_class off = std::isfinite(at) ? abs(mpq_class(at) - exact) : abs(b - a);
+      const mpq_class allowed = abs(exact) * mpq_class(0x1p-24 * (1 + 0x1p-20));
       update_worst(worst, mpq_class((off - allowed) / abs(b - a)).get_d());
       ++cuts;
       cancelled += abs(exact) < abs(b - a) * mpq_class(0x1p-40) ? 1 : 0;

@@ -1,14 +1,14 @@
-// Colours and texture coordinates go on across a cut as if nothing had been clipped: on planes whose
-// attributes are linear in clip space each pixel is compared with what it shows of the plane, in long double
-// from whole numbers, without any clipping and triangles. Where neighbours are clipped differently both are
-// compared with the same function, so they are never further apart than it is.
+// Colours and texture coordinates are continuous across a cut, as if nothing had been clipped. Planes have
+// attributes that are linear in clip space. Each pixel is compared in long double with the attribute of the
+// plane at that pixel, from whole numbers, without clipping or triangles. Neighbours that are clipped
+// differently are compared with the same function, so they cannot differ by more than twice the bound.
 //
-// The bound. A vertex is drawn up to kReach from where it is, with the attributes that it has there. Inside a
-// triangle a point is then moved by the mean of its vertices' moves, weighted as its attributes are,
-// numerator and denominator alike: so it shows exactly what belongs to some point within kReach in x and y. A
-// quotient of linear functions takes its extremes over that square at corners. Floats add, each relative to a
-// weight or an attribute of 0 .. 1 and so less than 16 times 2^-24 altogether, 2^-10 of a level; the level is
-// rounded by half of one.
+// The bound: a vertex is drawn up to kReach from its exact position, with the attributes of the exact
+// position. Inside a triangle a point therefore moves by the weighted mean of the vertex moves, with the
+// attribute weights, in numerator and denominator alike. So it shows exactly the attribute of some point
+// within kReach in x and y. A quotient of linear functions takes its extremes over that square at the
+// corners. Float roundings add, each relative to a weight or an attribute in 0 .. 1, less than 16 * 2^-24 in
+// total, which is 2^-10 of a level. Storing rounds by half a level.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,26 +23,28 @@ namespace tessera::test {
 namespace {
 
 constexpr int kSide = 64;
-constexpr std::int64_t kSize = 64;  // of the plane: u and v
+constexpr std::int64_t kSize = 64;  // extent of the plane in u and v
 constexpr long double kBound = 0.5L + 0x1p-10L;
 
-/// An attribute of 0 .. 1: one + u by_u + v by_v, in 1/256.
+/// An attribute in 0 .. 1: one + u by_u + v by_v, in 1/256.
 struct Attribute {
-  std::int64_t one = 128, by_u = 0, by_v = 0;
+  std::int64_t one = 128;
+  std::int64_t by_u = 0;
+  std::int64_t by_v = 0;
   float at(const WindowPoint& p) const { return static_cast<float>(one + p.x * by_u + p.y * by_v) / 256.0f; }
 };
 
 struct Range {
   long double low = 1, high = 0;
 };
-// Of what is seen within kReach of a point of the window.
+// Range of the attribute within kReach of a point of the window.
 Range range_around(const VisiblePlane& seen, const Attribute& attribute, Wide x, Wide y) {
   const Linear numerator = seen.mix(attribute.one, attribute.by_u, attribute.by_v);
   Range range;
   for (const int dx : {-kReach, kReach})
     for (const int dy : {-kReach, kReach}) {
-      const long double at_x = static_cast<long double>(x) + dx / static_cast<long double>(kReachScale),
-                        at_y = static_cast<long double>(y) + dy / static_cast<long double>(kReachScale);
+      const long double at_x = static_cast<long double>(x) + dx / static_cast<long double>(kReachScale);
+      const long double at_y = static_cast<long double>(y) + dy / static_cast<long double>(kReachScale);
       const long double value = numerator.at(at_x, at_y) / seen.coordinates[0].at(at_x, at_y) / 256;
       range.low = std::min(range.low, value);
       range.high = std::max(range.high, value);
@@ -50,8 +52,8 @@ Range range_around(const VisiblePlane& seen, const Attribute& attribute, Wide x,
   return range;
 }
 
-// Levels of 255 beyond the range, at worst, of all pixels that are sure to show the plane. `level_of` says
-// what level an attribute comes to.
+// Largest distance from the expected range, in levels of 255, over all pixels that are certain to show the
+// plane. `level_of` maps an attribute to a level.
 template <class LevelOf>
 long double worst_of(const CasePicture& picture, const VisiblePlane& seen, const ExactRegion& region,
                      const SquareViewport& view, const std::vector<Attribute>& attributes,
@@ -77,18 +79,19 @@ long double worst_of_planes(const MakeRenderer& make, bool is_tessera, bool text
                             long double bound, const LevelOf& level_of) {
   CaseFormat format{.width = kSide, .height = kSide, .reversed = reversed};
   if (textured) {
-    format.texture_width =
-        256;  // each texel's level is its number: halfway between two centres lies the mean
+    // The level of each texel is its index, so halfway between two centres the result is their mean.
+    format.texture_width = 256;
     format.texture_height = 1;
     for (int i = 0; i < 256; ++i) format.texture.push_back(static_cast<std::uint8_t>(i));
   }
   const std::unique_ptr<CaseRenderer> renderer = make(format);
   long double worst = 0;
-  long pixels = 0, clipped = 0;
+  long pixels = 0;
+  long clipped = 0;
   for (int n = 0; n < (is_tessera && long_tests() ? 200000 : 1000); ++n) {
     MeshRandom random(n);
     ClipPlane plane = random_plane(random);
-    if (reversed) plane.origin.z = 1, plane.to_u.z = plane.to_v.z = 0;  // far at infinity
+    if (reversed) plane.origin.z = 1, plane.to_u.z = plane.to_v.z = 0;  // The far plane is at infinity.
     const int side = random.one_of({kSide, 2048, 16384});
     const SquareViewport view{-random.between(0, side - kSide), -random.between(0, side - kSide), side};
     const std::optional<VisiblePlane> seen = plane.seen(view);
@@ -99,7 +102,7 @@ long double worst_of_planes(const MakeRenderer& make, bool is_tessera, bool text
     std::vector<Attribute> attributes;
     for (int c = 0; c < (textured ? 1 : 3); ++c)
       attributes.push_back({128, random.one_of({-1, 0, 1}), random.one_of({-1, 0, 1})});
-    if (textured) attributes[0].by_v = 0;  // s from 1/4 to 3/4, where nothing repeats
+    if (textured) attributes[0].by_v = 0;  // s runs from 1/4 to 3/4, where wrapping has no effect.
     CaseDraw draw{.positions = mesh.positions,
                   .indices = mesh.indices,
                   .viewport = Rect{view.x, view.y, view.side, view.side},
@@ -121,11 +124,11 @@ long double worst_of_planes(const MakeRenderer& make, bool is_tessera, bool text
     update_worst(worst, here);
   }
   EXPECT_GT(pixels, 100000);
-  EXPECT_GT(clipped, 200);  // planes that are seen and reach behind the eye
+  EXPECT_GT(clipped, 200);  // planes that are visible and reach behind the eye
   return worst;
 }
 
-TEST(ClippedColors, GoOnAcrossTheCut) {
+TEST(ClippedColors, AreContinuousAcrossTheCut) {
   const auto level_of = [](long double color) { return 255 * color; };
   expect_figure("colours across cuts, off the exact ones within the reach of snapping", kBound,
                 "levels of 255", [&](const MakeRenderer& make, bool is_tessera) {
@@ -137,9 +140,9 @@ TEST(ClippedColors, GoOnAcrossTheCut) {
                 });
 }
 
-// The filter mixes two neighbours with 8 fraction bits of a level, the share that it takes and the one that
-// it adds both rounded down: 2^-8 of a level at most.
-TEST(ClippedColors, TexturesGoOnAcrossTheCut) {
+// Linear filtering blends two neighbours with 8 fraction bits of a level. Both the subtracted and the added
+// share are rounded down: at most 2^-8 of a level.
+TEST(ClippedColors, TexturesAreContinuousAcrossTheCut) {
   constexpr long double kWithFilter = kBound + 0x1p-8L;
   expect_figure("textures across cuts, off the exact level within the reach of snapping", kWithFilter,
                 "levels of 255", [](const MakeRenderer& make, bool is_tessera) {

@@ -1,6 +1,6 @@
-// Neighbours that are clipped differently stay watertight: where a mesh is seen it covers each pixel exactly
-// once, where clip planes cut it off none. Along a cut, and only there, a pixel may be covered once or not at
-// all, if it is nearer to the exact cut than the snapping of vertices reaches.
+// Neighbouring triangles that are clipped differently stay watertight. The visible part of a mesh covers each
+// pixel exactly once; the part that clip planes remove covers no pixel. Only along a cut may a pixel be
+// covered once or not at all, if it is closer to the exact cut than snapping moves vertices.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ int how_many(bool is_tessera, int normal, int in_long_tests) {
   return is_tessera && long_tests() ? in_long_tests : normal;
 }
 
-// Small viewports have their guard band 512 times as far away as their sides are, the largest only twice. Of
-// those the buffer is some part.
+// A small viewport has its guard band at 512 times its half size, the largest at only twice. The buffer shows
+// a random part of the viewport.
 SquareViewport random_view(MeshRandom& random) {
   const int side = random.one_of({kSide, 2048, 16384});
   return {-random.between(0, side - kSide), -random.between(0, side - kSide), side};
@@ -36,12 +36,13 @@ CaseDraw counting(const CountedMesh& mesh, const SquareViewport& view) {
   return draw;
 }
 
-// By which planes triangles are cut: 1 near, 2 far, 4 the guard band. Those that are outside of one of them
-// are left out.
+// Clip planes that cut the triangles, as bits: 1 near, 2 far, 4 guard band. Triangles entirely outside a
+// plane are ignored.
 std::set<int> cuts_of(const CountedMesh& mesh, const SquareViewport& view) {
   std::set<int> cuts;
   for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
-    int some = 0, all = 63;
+    int some = 0;
+    int all = 63;
     for (std::size_t k = 0; k < 3; ++k) {
       const float* p = mesh.positions.data() + 4 * mesh.indices[t + k];
       const double guard = 2 * 16383.0 / view.side * double{p[3]};
@@ -55,7 +56,7 @@ std::set<int> cuts_of(const CountedMesh& mesh, const SquareViewport& view) {
   return cuts;
 }
 
-TEST(ClippedNeighbours, OfPlanesThroughAllClipPlanes) {
+TEST(ClippedNeighbours, PlanesThroughAllClipPlanes) {
   constexpr int kSize = 64;
   std::set<int> cuts;
   expect_coverage("planes clipped in all ways", kFormat, [&](const Count& count, bool is_tessera) {
@@ -74,10 +75,10 @@ TEST(ClippedNeighbours, OfPlanesThroughAllClipPlanes) {
              [&] { return snapping_folds(mesh, view); }});
     }
   });
-  EXPECT_EQ(cuts.size(), 8u) << "near, far and guard band in all combinations";
+  EXPECT_EQ(cuts.size(), 8u) << "expected all combinations of near, far and guard band";
 }
 
-// The near plane is the line u = 0, on which vertices and edges lie.
+// The near plane is the line u = 0, which holds vertices and edges.
 ClipPlane plane_at_near(MeshRandom& random) {
   ClipPlane plane = random_plane(random);
   plane.origin.z = -plane.origin.w;
@@ -85,7 +86,7 @@ ClipPlane plane_at_near(MeshRandom& random) {
   return plane;
 }
 
-TEST(ClippedNeighbours, ThousandsThatMeetAtTheNearPlane) {
+TEST(ClippedNeighbours, ThousandsOfTrianglesMeetingAtTheNearPlane) {
   expect_coverage("thousands that meet at the near plane", kFormat, [](const Count& count, bool is_tessera) {
     for (int n = 0; n < how_many(is_tessera, 40, 4000); ++n) {
       MeshRandom random(n);
@@ -102,8 +103,9 @@ TEST(ClippedNeighbours, ThousandsThatMeetAtTheNearPlane) {
       count({counting(mesh, view)}, "grid " + std::to_string(n),
             {covers_of(plane.region(*seen, 32), kSide, kSide, view),
              [&] { return snapping_folds(mesh, view); }});
-      // All around one vertex on it.
-      constexpr int kSpokes = 4096, kRadius = 4096;
+      // A fan around one vertex on the plane.
+      constexpr int kSpokes = 4096;
+      constexpr int kRadius = 4096;
       std::vector<WindowPoint> points{{0, 0}};
       for (int i = 0; i < kSpokes; ++i) {
         const double angle = 2 * std::numbers::pi * i / kSpokes;
@@ -119,7 +121,7 @@ TEST(ClippedNeighbours, ThousandsThatMeetAtTheNearPlane) {
   });
 }
 
-// z = 1 and depths of 1/w: from the near plane at w = 1 to points at infinity, w = 0, and what lies beyond.
+// z = 1 and depth 1/w: from the near plane at w = 1 to points at infinity (w = 0) and beyond.
 TEST(ClippedNeighbours, UnderReversedInfiniteDepth) {
   constexpr int kSize = 64;
   const CaseFormat format{
@@ -146,22 +148,23 @@ TEST(ClippedNeighbours, UnderReversedInfiniteDepth) {
   });
 }
 
-// Seen from within, a surface around the eye is seen once in each direction, whatever of it is in front,
-// behind or beyond the guard band: corners are as far away as they like, so triangles are clipped in all
-// ways.
-TEST(ClippedNeighbours, OfSurfacesAroundTheEye) {
+// From the inside, a surface around the eye is visible exactly once in every direction, whichever part is in
+// front, behind or beyond the guard band. Corners are at any distance, so all kinds of cuts occur.
+TEST(ClippedNeighbours, SurfacesAroundTheEye) {
   expect_coverage("surfaces around the eye", kFormat, [](const Count& count, bool is_tessera) {
     for (int n = 0; n < how_many(is_tessera, 2000, 1000000); ++n) {
       MeshRandom random(n);
       const int cells = random.between(1, 6);
       const double spread = random.one_of({0, random.between(0, 4), 30});  // decades
-      const double degrees = 360 * random.unit(), x = random.unit() - 0.5, y = random.unit() - 0.5,
-                   z = random.unit() + 0.1;
+      const double degrees = 360 * random.unit();
+      const double x = random.unit() - 0.5;
+      const double y = random.unit() - 0.5;
+      const double z = random.unit() + 0.1;
       const Matrix turn = rotate(degrees, x, y, z);
       const Matrix view = perspective(random.one_of({5.0, 40.0, 90.0, 150.0}), 1, 1e-18, 1e18) * turn;
       CountedMesh mesh;
-      std::vector<std::array<int, 3>>
-          keys;  // corners of a cube's cells, in whole numbers: the same on all faces that meet there
+      // Corners of the cells of a cube in whole numbers, identical on all faces that meet there.
+      std::vector<std::array<int, 3>> keys;
       const auto vertex = [&](const std::array<int, 3>& key) {
         const auto found = std::find(keys.begin(), keys.end(), key);
         if (found != keys.end()) return static_cast<std::uint32_t>(found - keys.begin());
@@ -184,8 +187,10 @@ TEST(ClippedNeighbours, OfSurfacesAroundTheEye) {
               key[(face / 2 + 2) % 3] = v;
               return vertex(key);
             };
-            const std::uint32_t p = corner(i, j), q = corner(i + 2, j), r = corner(i + 2, j + 2),
-                                s = corner(i, j + 2);
+            const std::uint32_t p = corner(i, j);
+            const std::uint32_t q = corner(i + 2, j);
+            const std::uint32_t r = corner(i + 2, j + 2);
+            const std::uint32_t s = corner(i, j + 2);
             mesh.add_triangle(p, q, r);
             mesh.add_triangle(p, r, s);
           }

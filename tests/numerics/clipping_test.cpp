@@ -1,6 +1,6 @@
-// Triangles that are clipped: at w = 0 and around it, behind the eye, through and along the near plane, 10^30
-// large, far beyond the guard band. Pixels are compared with the exact projection of what is inside, by
-// rational arithmetic on whole numbers (exact_region.h).
+// Clipped triangles: at and around w = 0, behind the eye, through and along the near plane, 10^30 in size,
+// far beyond the guard band. Pixels are compared with the exact projection of the inside part, by rational
+// arithmetic on whole numbers (exact_region.h).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,8 +17,8 @@ namespace {
 
 constexpr SquareViewport kView{0, 0, 64};
 
-/// As it is, and as it is drawn: in floats, so `w` may be some hair other than the exact one's 0, which moves
-/// nothing by as much as 10^-20 pixels.
+/// The exact triangle and its float version that is drawn. The float `w` may differ slightly from an exact 0,
+/// which moves nothing by even 10^-20 pixels.
 struct DrawnTriangle {
   std::array<ClipPoint, 3> exact;
   std::array<float, 3> extra_w{};
@@ -34,7 +34,7 @@ struct DrawnTriangle {
     }
     return d;
   }
-  /// Absent where the triangle is seen edge-on.
+  /// Empty if the triangle is edge-on.
   std::optional<std::vector<Cover>> expected() const {
     const std::optional<VisiblePlane> seen = visible_plane(exact, kView);
     if (!seen) return std::nullopt;
@@ -58,7 +58,7 @@ DrawnTriangle any_triangle(MeshRandom& random) {
   return t;
 }
 
-// Rows of pixels left out, covered again, and covered beyond the edge.
+// Counts pixels left out, covered twice, and covered beyond the edge.
 void expect_exact(const std::string& what, DrawnTriangle (*make)(MeshRandom&), bool reversed = false) {
   expect_coverage(what, {.width = kView.side, .height = kView.side, .reversed = reversed},
                   [make, reversed](const Count& count, bool is_tessera) {
@@ -72,12 +72,12 @@ void expect_exact(const std::string& what, DrawnTriangle (*make)(MeshRandom&), b
                   });
 }
 
-TEST(Clipping, LeavesTheExactProjection) {
+TEST(Clipping, MatchesTheExactProjection) {
   expect_exact("clipped triangles", any_triangle);
   expect_exact("clipped triangles, reversed depth", any_triangle, true);
 }
 
-TEST(Clipping, AtAndAroundWZero) {
+TEST(Clipping, IsExactAtAndAroundWZero) {
   expect_exact("triangles with w = 0, 2^-149, 1e-30, -1e-30", [](MeshRandom& random) {
     DrawnTriangle t = any_triangle(random);
     for (int k = random.between(0, 2); k < 3; ++k) {
@@ -90,7 +90,7 @@ TEST(Clipping, AtAndAroundWZero) {
   });
 }
 
-TEST(Clipping, ThroughAVertexOrAlongAnEdge) {
+TEST(Clipping, IsExactThroughAVertexOrAlongAnEdge) {
   expect_exact("near or far plane through one, two or three vertices", [](MeshRandom& random) {
     DrawnTriangle t = any_triangle(random);
     const int sign = random.coin() ? 1 : -1;
@@ -100,7 +100,7 @@ TEST(Clipping, ThroughAVertexOrAlongAnEdge) {
   });
 }
 
-TEST(Clipping, OfHugeTriangles) {
+TEST(Clipping, IsExactForHugeTriangles) {
   expect_exact("triangles of 10^30, and w", [](MeshRandom& random) {
     DrawnTriangle t = any_triangle(random);
     t.scale = 0x1p100f;
@@ -122,8 +122,9 @@ TEST(Clipping, OfHugeTriangles) {
   });
 }
 
-// z = 1 all over, so depth is 1/w and an infinite far plane cuts nothing: from w = 1 to points at infinity.
-TEST(Clipping, AgainstReversedInfiniteFar) {
+// z = 1 everywhere, so depth is 1/w and the infinite far plane cuts nothing: from w = 1 to points at
+// infinity.
+TEST(Clipping, IsExactUnderReversedInfiniteDepth) {
   expect_exact(
       "near plane, reversed, far at infinity",
       [](MeshRandom& random) {
@@ -134,7 +135,7 @@ TEST(Clipping, AgainstReversedInfiniteFar) {
       true);
 }
 
-// With no tolerance: nothing at all.
+// No tolerance: not a single pixel.
 TEST(Clipping, ShowsNothingBehindTheEye) {
   expect_coverage(
       "triangles behind the eye", {.width = kView.side, .height = kView.side},

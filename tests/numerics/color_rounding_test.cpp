@@ -1,5 +1,5 @@
-// How colours are rounded to buffers of 1 to 24 bits: at every level and every middle between two, and at the
-// floats next to them, wherever a colour comes from.
+// Rounding of colours to buffers of 1 to 24 bits: at every level, at every middle between two levels, and at
+// the adjacent floats, for every source of colours.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Components that matter to b bits: levels, the middles between them, and their neighbours.
+/// Test components for b bits: levels, the middles between them, and the adjacent floats.
 std::vector<float> telling_components(int bits) {
   std::vector<float> components{0, -0.0f, 1, std::numeric_limits<float>::denorm_min()};
   const int levels = (1 << bits) - 1;
@@ -31,7 +31,7 @@ std::vector<float> telling_components(int bits) {
   return components;
 }
 
-/// Where a colour comes from: draws or clears one pixel of the bottom row.
+/// A source of colours: draws or clears one pixel of the bottom row.
 struct Source {
   const char* name;
   std::function<void(Frame&, int x, const Color&)> put;
@@ -39,7 +39,7 @@ struct Source {
 
 Rect pixel(int x) { return {x, 0, 1, 1}; }
 
-/// Lives until the frame is finished: meshes are borrowed.
+/// Owns borrowed meshes; must outlive the frame.
 class Meshes {
  public:
   const MeshData& window(const Color& color) {
@@ -110,7 +110,7 @@ std::vector<Source> sources(Meshes& meshes) {
   };
 }
 
-/// Calls check(source, colours, words) for buffers of every depth and number of samples.
+/// Calls check(source, colours, words) for every colour depth and sample count.
 template <class Check>
 void for_each_buffer(const std::function<std::vector<Color>(int)>& colors_of, int first_bits, int last_bits,
                      const Check& check) {
@@ -136,11 +136,11 @@ void for_each_buffer(const std::function<std::vector<Color>(int)>& colors_of, in
     }
 }
 
-// The component times the levels, plus a half, less than 2^bits, is rounded to a float once before its
+// The component times the level count, plus a half, is below 2^bits and is rounded to float once before its
 // fraction is cut off.
 long double beyond_half(int bits) { return std::ldexp(1.0L, bits - 25); }
 
-TEST(ColorRounding, IsToTheNearestLevelOfEachComponent) {
+TEST(ColorRounding, RoundsEachComponentToTheNearestLevel) {
   std::array<long double, 9> worst{};
   const auto colors = [](int color_bits) {
     const ComponentBits split(color_bits, 8);
@@ -161,8 +161,8 @@ TEST(ColorRounding, IsToTheNearestLevelOfEachComponent) {
                       for (std::size_t c = 0; c < 4; ++c) {
                         if (split.bits[c] == 0) continue;
                         const std::int64_t level = split.level(words[i], c);
-                        const double exact =
-                            static_cast<double>(components[c]) * split.levels(c);  // 24 + 8 bits
+                        // 24 + 8 bits: exact.
+                        const double exact = static_cast<double>(components[c]) * split.levels(c);
                         const long double off = std::abs(static_cast<long double>(level) - exact);
                         ASSERT_LE(off, 0.5L + beyond_half(split.bits[c]))
                             << source << ": " << components[c] << " of component " << c << " is level "
@@ -176,10 +176,9 @@ TEST(ColorRounding, IsToTheNearestLevelOfEachComponent) {
                   std::max(0.0L, worst[static_cast<std::size_t>(bits)] - 0.5L), beyond_half(bits), "levels");
 }
 
-// 0.30 R + 0.59 G + 0.11 B: weights that are floats (off by 2^-26, 2^-25 and 2^-28 at most), the product for
-// blue (2^-28) and two sums up to 1 (2^-25 each), rounded, and the rounding above. That is 1.875 * 2^-24
-// of 1.0.
-TEST(ColorRounding, OfLuminanceIsToTheNearestGrey) {
+// 0.30 R + 0.59 G + 0.11 B. Errors: the float weights (at most 2^-26, 2^-25 and 2^-28), the product for blue
+// (2^-28), two sums up to 1 (2^-25 each), and the final rounding above. In total 1.875 * 2^-24 of 1.0.
+TEST(ColorRounding, RoundsLuminanceToTheNearestGrey) {
   for (const int color_bits : {1, 2}) {
     const long double bound = ((1 << color_bits) - 1) * 1.875L * 0x1p-24L + beyond_half(color_bits);
     long double worst = 0;
@@ -189,10 +188,11 @@ TEST(ColorRounding, OfLuminanceIsToTheNearestGrey) {
       const int levels = (1 << bits) - 1;
       for (int half = 0; half <= 2 * levels; ++half)
         for (int i = 0; i < 200; ++i) {
-          // Greys, and colours whose luminance comes next to that number of halves, or as far beside it as
-          // would be wrong.
+          // Greys, and colours whose luminance is close to `half` half levels, on either side.
           const double wanted = static_cast<double>(half) / (2 * levels);
-          const float grey = static_cast<float>(wanted), r = random.between(0, 1), b = random.between(0, 1);
+          const float grey = static_cast<float>(wanted);
+          const float r = random.between(0, 1);
+          const float b = random.between(0, 1);
           const float g = static_cast<float>((wanted - 0.30 * r - 0.11 * b) / 0.59 +
                                              (i % 9 - 4) * (i % 2 == 0 ? 0x1p-25 : 0x1p-23));
           if (i < 3) all.push_back({grey, grey, grey, 1});
@@ -218,9 +218,9 @@ TEST(ColorRounding, OfLuminanceIsToTheNearestGrey) {
   }
 }
 
-// Texels and pixels of images, 8 bits a component, have no roundings before: exactly the nearest. No middle
-// between two levels is among them, since 255 (2 k + 1) is odd.
-TEST(ColorRounding, OfImagesIsExact) {
+// Texels and image pixels of 8 bits per component involve no earlier rounding: exactly the nearest level.
+// None of them lies in the middle between two levels, since 255 (2 k + 1) is odd.
+TEST(ColorRounding, RoundsImagesExactly) {
   std::vector<std::uint8_t> texels;
   for (int i = 0; i < 256; ++i)
     for (int c = 0; c < 4; ++c) texels.push_back(static_cast<std::uint8_t>((i * (2 * c + 1)) & 255));
@@ -241,8 +241,8 @@ TEST(ColorRounding, OfImagesIsExact) {
   }
 }
 
-// What is shown of a stored level: round(255 v / (2^b - 1)).
-TEST(ColorRounding, OfWhatIsShownIsExact) {
+// Displayed byte of a stored level: round(255 v / (2^b - 1)).
+TEST(ColorRounding, DisplaysLevelsExactly) {
   for (int color_bits = 1; color_bits <= 24; ++color_bits) {
     const ComponentBits split(color_bits, 0);
     const int width = 256;
@@ -264,9 +264,9 @@ TEST(ColorRounding, OfWhatIsShownIsExact) {
   }
 }
 
-// Indices are rounded to the nearest whole number, halves up, and go round at 2^bits. Exactly, unless they
-// are below 0: then what the modulus is added to is rounded to a float, of 24 bits, before.
-TEST(ColorRounding, OfIndicesIsExact) {
+// Colour indices are rounded to the nearest integer, halves up, and wrap at 2^bits. This is exact for
+// non-negative indices. For negative ones the sum with the modulus is first rounded to a 24-bit float.
+TEST(ColorRounding, RoundsColorIndicesExactly) {
   double worst = 0;
   for (int bits = 1; bits <= 24; ++bits) {
     std::vector<float> indices{0,
@@ -279,9 +279,9 @@ TEST(ColorRounding, OfIndicesIsExact) {
                                -3e38f};
     Random random(static_cast<std::uint64_t>(bits));
     for (int i = 0; i < 400; ++i) {
-      const float whole = static_cast<float>(random.next() % (2u << bits)) -
-                          static_cast<float>(i % 4 == 3 ? 1u << bits : 0u),
-                  at = whole + (i % 2 == 0 ? 0.5f : 0.0f);
+      const float whole =
+          static_cast<float>(random.next() % (2u << bits)) - static_cast<float>(i % 4 == 3 ? 1u << bits : 0u);
+      const float at = whole + (i % 2 == 0 ? 0.5f : 0.0f);
       indices.insert(indices.end(), {std::nextafter(at, -kInfinity), at, std::nextafter(at, kInfinity)});
     }
     for (const Shading shading : {Shading::flat, Shading::gouraud}) {
@@ -303,14 +303,15 @@ TEST(ColorRounding, OfIndicesIsExact) {
       Renderer({.threads = 1}).finish(frame);
       const auto words = packed_colors(buffer);
       for (std::size_t i = 0; i < indices.size(); ++i) {
-        const double index = static_cast<double>(indices[i]), modulus = std::ldexp(1.0, bits);
+        const double index = static_cast<double>(indices[i]);
+        const double modulus = std::ldexp(1.0, bits);
         if (index >= 0) {
           ASSERT_EQ(words[i], std::fmod(std::floor(index + 0.5), modulus))
               << indices[i] << " in " << bits << " bits";
           continue;
         }
-        const double off = std::abs(std::remainder(
-            words[i] - index, modulus));  // sums of less than 2^28 and of more than 2^-25: exact
+        // Sums below 2^28 of terms above 2^-25: exact.
+        const double off = std::abs(std::remainder(words[i] - index, modulus));
         ASSERT_LE(off, 0.5 + std::ldexp(1.0, bits - 25)) << indices[i] << " in " << bits << " bits";
         update_worst(worst, off - 0.5);
       }

@@ -12,18 +12,22 @@ namespace {
 
 struct Tally {
   long double cracks = 0, doubles = 0, strays = 0;
-  int meshes = 0, overlapping = 0;
-  std::size_t pixels = 0, once = 0, never = 0;  // of what is expected
+  int meshes = 0;
+  int overlapping = 0;
+  // Of the expected pixels.
+  std::size_t pixels = 0;
+  std::size_t once = 0;
+  std::size_t never = 0;
 
-  /// Adds what is wrong; returns the first wrong pixel, or how many there are.
+  /// Adds the miscounted pixels; returns the index of the first one, or the pixel count if there is none.
   std::size_t add(const std::vector<int>& counts, const Expected& expected) {
     ++meshes;
     std::size_t first = counts.size();
     std::optional<bool> overlaps;
     for (std::size_t i = 0; i < counts.size(); ++i) {
       const Cover cover = expected.pixels.empty() ? Cover::once : expected.pixels[i];
-      const bool crack = cover == Cover::once && counts[i] == 0,
-                 stray = cover == Cover::never && counts[i] > 0;
+      const bool crack = cover == Cover::once && counts[i] == 0;
+      const bool stray = cover == Cover::never && counts[i] > 0;
       bool again = cover != Cover::never && counts[i] > 1 &&
                    !(expected.folds_along_cuts && cover == Cover::at_most_once);
       if (again && expected.overlaps) {
@@ -100,7 +104,8 @@ void Grid::cut_into(CountedMesh& mesh, MeshRandom& random) const {
 
 void expect_coverage(const std::string& what, const CaseFormat& format,
                      const std::function<void(const Count& count, bool is_tessera)>& meshes) {
-  Tally ours, mesas;
+  Tally ours;
+  Tally mesas;
   {
     const std::vector<std::unique_ptr<CaseRenderer>> renderers = tesseras(format);
     std::size_t frame = 0;
@@ -124,7 +129,7 @@ void expect_coverage(const std::string& what, const CaseFormat& format,
   EXPECT_LE(ours.overlapping, ours.meshes / 100);
   EXPECT_GT(ours.pixels, 10000u) << what;
   EXPECT_TRUE(ours.once > 10000 || ours.never == ours.pixels)
-      << what << ": hardly a pixel is sure to be covered";
+      << what << ": too few pixels are certain to be covered";
   const auto row = [&](const std::string& kind, long double measured, long double by_mesa) {
     expect_within(what + ": " + kind, measured, 0, "pixels");
     if (mesa) report_mesa_figure(what + ": " + kind, by_mesa);

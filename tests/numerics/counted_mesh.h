@@ -1,4 +1,4 @@
-// Meshes whose triangles share edges, and the buffers that count how often they cover each pixel.
+// Meshes whose triangles share edges, and buffers that count how often each pixel is covered.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace tessera::test {
 
-/// What the n-th mesh of a test is made from: the same whatever came before it.
+/// Random generator of the n-th mesh of a test, independent of the meshes before it.
 struct MeshRandom {
   std::mt19937 random;
   explicit MeshRandom(int n) : random(static_cast<std::uint32_t>(n)) {}
@@ -41,28 +41,28 @@ struct CountedMesh {
     indices.insert(indices.end(), {a, b, c});
   }
   std::size_t triangles() const { return indices.size() / 3; }
-  /// The same triangles in any order, with either winding, from any of their vertices on.
+  /// Shuffles the triangles, their windings and their first vertices.
   void shuffle(MeshRandom& random);
 };
 
-/// Adds one level of blue to what is covered.
+/// A draw that adds one level of blue to each covered pixel.
 CaseDraw counting(const CountedMesh& mesh);
 
 /// In 1/256 pixel from the lower left corner.
 struct WindowPoint {
   std::int64_t x = 0, y = 0;
 };
-/// Positive where c is to the left of the way from a to b.
+/// Positive if c is to the left of the line from a to b.
 inline std::int64_t doubled_area(const WindowPoint& a, const WindowPoint& b, const WindowPoint& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
-/// Window points of a buffer whose sides are powers of two: exact in clip space.
+/// Mesh of window points. Exact in clip space if the buffer's sides are powers of two.
 CountedMesh mesh_of(const std::vector<WindowPoint>& points, int width, int height);
 
 /// A grid of vertices, `columns` x `rows` cells, row by row.
 struct Grid {
   int columns = 1, rows = 1;
-  std::vector<WindowPoint> points;  ///< of the window, or of any other plane
+  std::vector<WindowPoint> points;  ///< in the window or in any other plane
 
   std::uint32_t index(int column, int row) const {
     return static_cast<std::uint32_t>(row * (columns + 1) + column);
@@ -74,40 +74,38 @@ struct Grid {
       for (int i = 0; i < columns; ++i)
         cell(index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1));
   }
-  /// Whether the way from p to r is inside the cell.
+  /// Whether the diagonal from p to r is inside the cell.
   bool has_diagonal(std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) const {
     return doubled_area(points[p], points[q], points[r]) >= 0 &&
            doubled_area(points[p], points[r], points[s]) >= 0;
   }
-  /// Cells that turn inside out overlap their neighbours.
+  /// Whether any cell is inverted; such cells overlap their neighbours.
   bool folds() const;
   bool is_convex() const;
-  /// Adds each cell as two triangles, cut along a diagonal inside, and shuffles them.
+  /// Adds each cell as two triangles, split along an inner diagonal, and shuffles them.
   void cut_into(CountedMesh& mesh, MeshRandom& random) const;
 };
 
-/// How often a pixel should be covered.
+/// Expected coverage count of a pixel.
 enum class Cover : std::uint8_t { never, once, at_most_once };
 
-/// What a mesh should cover.
+/// Expected coverage of a mesh.
 struct Expected {
-  std::vector<Cover> pixels{};       ///< rows from the top; empty: all of them once
-  std::function<bool()> overlaps{};  ///< asked where something is covered again: whether that is in the mesh
-                                     ///< itself, once it is snapped
-  bool folds_along_cuts = false;  ///< where at most once is expected it may be again: slivers between an edge
-                                  ///< and a cut, thinner than what snapping moves them by, turn over
+  std::vector<Cover> pixels{};  ///< rows from the top; empty: every pixel once
+  /// Called if a pixel is covered twice: whether the snapped mesh itself overlaps.
+  std::function<bool()> overlaps{};
+  /// Pixels expected `at_most_once` may be covered again: slivers between an edge and a cut, thinner than the
+  /// snapping distance, may flip.
+  bool folds_along_cuts = false;
 };
-/// Counts a frame's pixels; `name` is that of the mesh in messages.
+/// Counts a frame's pixels; `name` identifies the mesh in messages.
 using Count = std::function<void(const std::vector<CaseDraw>& draws, const std::string& name,
                                  const Expected& expected)>;
 
-/// Expects that nothing is left out, covered again, or covered where nothing should be, with Mesa's figures
-/// beside.
+/// Expects no pixel to be left out, covered twice, or covered where nothing is expected, and reports Mesa's
+/// figures in the same rows. At most one mesh in a hundred may have overlapping triangles.
 ///
-/// Of one mesh in a hundred at most the triangles may overlap.
-///
-/// @param meshes  counts all meshes there are. Tessera takes turns with tiles of all sizes and all
-/// instruction sets.
+/// @param meshes draws and counts all meshes. Tessera alternates between tile sizes and instruction sets.
 void expect_coverage(const std::string& what, const CaseFormat& format,
                      const std::function<void(const Count& count, bool is_tessera)>& meshes);
 

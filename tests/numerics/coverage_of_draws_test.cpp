@@ -1,6 +1,6 @@
-// Which pixels a triangle covers, by each of the ways that its pixels may go: most draws do not count in a
-// blended buffer, as other tests do. Each triangle is nearer than all before it, so that who is seen, how
-// often something was drawn and how far the depth is are known from exact integers. No tolerance.
+// Coverage of triangles on each pixel path. Most draws do not use the additive blending that other coverage
+// tests count with. Each triangle is nearer than all before it, so exact integers determine which triangle is
+// visible, how often each pixel was drawn, and its depth. No tolerance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,17 +22,17 @@ namespace {
 
 constexpr std::size_t kPixels = std::size_t{VisibilityOracle::kSide} * VisibilityOracle::kSide;
 
-/// A way to colour pixels.
-struct Way {
+/// A colour path.
+struct ShadingPath {
   std::string name;
   std::function<void(DrawState&)> change{};
   bool has_color = true;
-  std::optional<TextureFilter> filter{};  // of a texture, whose texels are the colours
+  std::optional<TextureFilter> filter{};  // texture filter; the texels are the colours
 
-  friend std::ostream& operator<<(std::ostream& out, const Way& way) { return out << way.name; }
+  friend std::ostream& operator<<(std::ostream& out, const ShadingPath& path) { return out << path.name; }
 };
 
-const Way kWays[] = {
+const ShadingPath kShadingPaths[] = {
     {"flat", [](DrawState& state) { state.shading = Shading::flat; }},
     {"gouraud", [](DrawState&) {}},
     {"phong",
@@ -46,7 +46,8 @@ const Way kWays[] = {
      TextureFilter::nearest},
     {"bilinear", [](DrawState& state) { state.texture_env = TextureEnv::replace; }, true,
      TextureFilter::linear},
-    {"blended", [](DrawState& state) { state.blend = BlendState{}; }},  // by an alpha of 1
+    // An alpha of 1.
+    {"blended", [](DrawState& state) { state.blend = BlendState{}; }},
     {"alpha_test", [](DrawState& state) { state.alpha_test = AlphaTest{}; }},
     {"depth_alone",
      [](DrawState& state) {
@@ -96,13 +97,13 @@ std::vector<VisibilityOracle> meshes() {
   return meshes;
 }
 
-/// Pixels that are not as they should be, of all frames.
+/// Wrong pixels, summed over all frames.
 struct Wrong {
   long double colors = 0, depths = 0, counts = 0, times = 0;
   bool any() const { return colors + depths + counts + times > 0; }
 };
 
-class CoverageOfDraws : public testing::TestWithParam<Way> {
+class CoverageOfDraws : public testing::TestWithParam<ShadingPath> {
  protected:
   CoverageOfDraws() {
     if (!GetParam().filter) return;
@@ -120,9 +121,9 @@ class CoverageOfDraws : public testing::TestWithParam<Way> {
                         .height = VisibilityOracle::kSide,
                         .depth = depth.format,
                         .stencil_bits = 8});
-    const Way& way = GetParam();
+    const ShadingPath& path = GetParam();
     DrawState state{.lighting = false};
-    way.change(state);
+    path.change(state);
     if (texture_) state.texture = &*texture_;
     state.depth = {.enabled = depth.format != DepthFormat::none, .test = depth.test};
     if (counts) state.stencil = StencilState{.front = {.zpass = StencilOp::incr_wrap}};
@@ -140,7 +141,7 @@ class CoverageOfDraws : public testing::TestWithParam<Way> {
     Wrong here;
     buffer.read_color_words(words_);
     for (std::size_t i = 0; i < kPixels; ++i)
-      here.colors += words_[i] != (way.has_color ? mesh.color_word(i) : 0) ? 1 : 0;
+      here.colors += words_[i] != (path.has_color ? mesh.color_word(i) : 0) ? 1 : 0;
     if (state.depth.enabled) {
       buffer.read_depth_words(words_);
       for (std::size_t i = 0; i < kPixels; ++i)
@@ -150,12 +151,12 @@ class CoverageOfDraws : public testing::TestWithParam<Way> {
       buffer.read_stencil(stencil_);
       for (std::size_t i = 0; i < kPixels; ++i) here.counts += stencil_[i] != (mesh.times(i) & 255) ? 1 : 0;
     }
-    // What was drawn and is hidden by now shows only here.
-    if (way.has_color && !painter.options.debug.defer_shading)
+    // Fragments that were drawn and later hidden show up only in this count.
+    if (path.has_color && !painter.options.debug.defer_shading)
       here.times =
           std::abs(static_cast<long double>(stats.shaded_pixels) - static_cast<long double>(mesh.covered));
     if (here.any() && !wrong_.any())
-      ADD_FAILURE() << way.name << ", " << depth.name << (counts ? ", counted" : "") << ", " << painter.name
+      ADD_FAILURE() << path.name << ", " << depth.name << (counts ? ", counted" : "") << ", " << painter.name
                     << ": colours wrong " << here.colors << ", depths " << here.depths << ", counts "
                     << here.counts << ", drawn " << stats.shaded_pixels << " instead of " << mesh.covered;
     wrong_.colors += here.colors;
@@ -178,8 +179,8 @@ TEST_P(CoverageOfDraws, EqualsExactIntegers) {
   std::size_t turn = 0;
   for (const Depth& depth : kDepths)
     for (const bool counts : {false, true}) {
-      if (!GetParam().has_color && depth.format == DepthFormat::none && !counts)
-        continue;  // nothing is stored
+      // Nothing is stored.
+      if (!GetParam().has_color && depth.format == DepthFormat::none && !counts) continue;
       for (std::size_t n = 0; n < std::max(all.size(), by.size()); ++n)
         draw(depth, counts, all[turn++ % all.size()], by[n % by.size()]);
     }
@@ -189,8 +190,8 @@ TEST_P(CoverageOfDraws, EqualsExactIntegers) {
   expect_within(name + ": counted in the stencil otherwise", wrong_.counts, 0, "pixels");
   if (GetParam().has_color) expect_within(name + ": drawn more or less often", wrong_.times, 0, "pixels");
 }
-INSTANTIATE_TEST_SUITE_P(Ways, CoverageOfDraws, testing::ValuesIn(kWays),
-                         [](const auto& way) { return way.param.name; });
+INSTANTIATE_TEST_SUITE_P(Paths, CoverageOfDraws, testing::ValuesIn(kShadingPaths),
+                         [](const auto& path) { return path.param.name; });
 
 }  // namespace
 }  // namespace tessera::test

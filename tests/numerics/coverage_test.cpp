@@ -1,6 +1,6 @@
-// Triangles that share edges cover each pixel exactly once: whole meshes on a buffer that counts, through all
-// of the engine. Corners are whole numbers of 1/256 pixel, so no rounding comes before the rule. No
-// tolerance.
+// Triangles that share edges cover each pixel exactly once: whole meshes drawn through the engine into a
+// counting buffer. Corners are multiples of 1/256 pixel, so nothing is rounded before the fill rule applies.
+// No tolerance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,14 +25,14 @@ int how_many(bool is_tessera, int normal, int in_long_tests) {
   return is_tessera && long_tests() ? in_long_tests : normal;
 }
 
-// Beyond the frame on all sides. Inner vertices are anywhere, or multiples of half a pixel: pixel centres,
-// and corners of pixels and tiles. Or of 1/16: sample positions.
+// A grid that extends beyond the frame on all sides. Inner vertices are arbitrary, or multiples of half a
+// pixel (pixel centres, corners of pixels and tiles), or of 1/16 pixel (sample positions).
 Grid jittered_grid(MeshRandom& random, double jitter, int max_cells = 24) {
   Grid grid{random.between(1, max_cells), random.between(1, max_cells), {}};
   const int snap = random.one_of({1, 16, 128, 256});
   const auto place = [&](int n, int last) {
-    const double cell = (kSide + 8.0) * 256 / last,
-                 at = cell * (n + (n > 0 && n < last ? jitter * (random.unit() - 0.5) : 0)) - 1024;
+    const double cell = (kSide + 8.0) * 256 / last;
+    const double at = cell * (n + (n > 0 && n < last ? jitter * (random.unit() - 0.5) : 0)) - 1024;
     return std::llround(at / snap) * snap;
   };
   for (int j = 0; j <= grid.rows; ++j)
@@ -60,7 +60,7 @@ TEST(ExactlyOnce, Grids) {
   });
 }
 
-// All lines of the grid lie on the borders and centres of pixels and tiles, or 1/256 pixel beside them.
+// All grid lines lie on the borders and centres of pixels and tiles, or 1/256 pixel next to them.
 TEST(ExactlyOnce, LinesAtPixelCentresAndTileBorders) {
   expect_coverage("lines at centres and tile borders", kFormat, [](const Count& count, bool is_tessera) {
     const auto lines = [](MeshRandom& random) {
@@ -82,7 +82,7 @@ TEST(ExactlyOnce, LinesAtPixelCentresAndTileBorders) {
   });
 }
 
-// Around a pixel's centre or corner, to points so far beyond the frame that no edge of the rim comes near it.
+// Fans around a pixel's centre or corner, whose rim lies far outside the frame.
 TEST(ExactlyOnce, Fans) {
   expect_coverage("fans around a pixel's centre", kFormat, [](const Count& count, bool is_tessera) {
     for (int n = 0; n < how_many(is_tessera, 2000, 100000); ++n) {
@@ -92,8 +92,8 @@ TEST(ExactlyOnce, Fans) {
       const int spokes = random.between(5, 200);
       std::vector<WindowPoint> points{center};
       for (int i = 0; i < spokes; ++i) {
-        const double angle = 2 * std::numbers::pi * (i + 0.9 * random.unit()) / spokes,
-                     radius = 256 * kSide * (6 + 5 * random.unit());
+        const double angle = 2 * std::numbers::pi * (i + 0.9 * random.unit()) / spokes;
+        const double radius = 256 * kSide * (6 + 5 * random.unit());
         points.push_back({center.x + std::llround(radius * std::cos(angle)),
                           center.y + std::llround(radius * std::sin(angle))});
       }
@@ -106,10 +106,12 @@ TEST(ExactlyOnce, Fans) {
   });
 }
 
-// 1/256 pixel wide and 16,384 pixels long; and needles from one point, whose other ends are 1/256 pixel
-// apart.
+// Slivers 1/256 pixel wide and 16,384 pixels long, and needles from one point whose other ends are 1/256
+// pixel apart.
 TEST(ExactlyOnce, LongSlivers) {
-  constexpr int kLong = 16384, kShort = 2, kCount = 256 * kShort;
+  constexpr int kLong = 16384;
+  constexpr int kShort = 2;
+  constexpr int kCount = 256 * kShort;
   for (const bool lying : {true, false}) {
     const int width = lying ? kLong : kShort, height = lying ? kShort : kLong;
     expect_coverage(lying ? "slivers, lying" : "slivers, standing", {.width = width, .height = height},
@@ -158,16 +160,17 @@ CaseDraw quads_of(const Grid& grid) {
   draw.primitive = Primitive::quads;
   return draw;
 }
-// A convex polygon around the frame that chords cut into polygons and fans.
+// A convex polygon around the frame, split by chords into polygons and fans.
 std::vector<CaseDraw> parts_of_a_polygon(MeshRandom& random) {
   const int corners = random.between(4, 60);
   std::vector<WindowPoint> points;
-  for (int i = 0; i < corners; ++i) {  // around the frame, however few
+  for (int i = 0; i < corners; ++i) {  // The polygon surrounds the frame for any number of corners.
     const double angle = 2 * std::numbers::pi * i / corners;
     points.push_back({128 * kSide + std::llround(40000 * std::cos(angle)),
                       128 * kSide + std::llround(40000 * std::sin(angle))});
   }
-  std::vector<std::vector<std::uint32_t>> whole{{}}, parts;
+  std::vector<std::vector<std::uint32_t>> whole{{}};
+  std::vector<std::vector<std::uint32_t>> parts;
   for (int i = 0; i < corners; ++i) whole[0].push_back(static_cast<std::uint32_t>(i));
   while (!whole.empty()) {
     std::vector<std::uint32_t> polygon = std::move(whole.back());
@@ -208,7 +211,7 @@ TEST(ExactlyOnce, StripsQuadsFansAndPolygons) {
   });
 }
 
-/// Words of a buffer with several samples, of which each pixel shows the mean. Mesa's OSMesa has one.
+/// Packed colors of a multisampled buffer; each pixel shows the mean. Mesa's OSMesa has one sample only.
 class SampledBuffer {
  public:
   explicit SampledBuffer(int samples)
@@ -230,11 +233,11 @@ class SampledBuffer {
   std::vector<std::uint32_t> words_;
 };
 
-// Two ways, because plain draws and those with operations find samples by ways of their own. What one sample
-// has too often could make up for another in the mean, so each sample's stencil counts, and what has not come
-// to 1 is then painted white. Of plain draws, all white leave no other pixel; and colours of their own show
-// the same picture in the reverse order, if none lies on another.
-TEST(ExactlyOnce, EachSampleOfAPixel) {
+// Two checks, because plain draws and draws with fragment operations find samples on different paths. In the
+// mean, a sample covered twice could hide one that was missed. So the stencil counts each sample, and samples
+// whose count is not 1 are then painted white. For plain draws, an all-white mesh must leave no other pixel;
+// and if no triangles overlap, individually coloured triangles show the same picture in reverse order.
+TEST(ExactlyOnce, EverySampleOfAPixel) {
   const DrawState counts{.lighting = false,
                          .stencil = StencilState{.front = {.zpass = StencilOp::incr_wrap}},
                          .color_mask = {false, false, false, false}};
@@ -245,7 +248,9 @@ TEST(ExactlyOnce, EachSampleOfAPixel) {
   const std::vector<float> whole{-1, -1, 0, 3, -1, 0, -1, 3, 0};
   for (const int samples : {4, 8}) {
     SampledBuffer buffer(samples);
-    long double miscounted = 0, left_out = 0, overlapped = 0;
+    long double miscounted = 0;
+    long double left_out = 0;
+    long double overlapped = 0;
     for (int n = 0; n < (long_tests() ? 100000 : 500); ++n) {
       MeshRandom random(n);
       Grid grid = jittered_grid(random, random.unit());

@@ -1,4 +1,4 @@
-// How far a depth buffer sees: a reversed projection into floats, and projections without a far end.
+// Range of a depth buffer: a reversed projection into float, and projections without a far plane.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,7 +18,7 @@ namespace {
 constexpr int kSide = 64;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Two triangles over the whole window and beyond, whose corners are 1 to `tilt` units away.
+// Two triangles that cover the window and more; their corners are 1 to `tilt` units away.
 CaseDraw sheet(Rng& rng, double tilt) {
   CaseDraw draw{.test_depth = true, .depth_func = Compare::greater};
   std::array<std::array<float, 4>, 4> corners{};
@@ -32,7 +32,7 @@ CaseDraw sheet(Rng& rng, double tilt) {
   return draw;
 }
 
-// Where one of them is drawn, it is the nearer one, whichever comes first.
+// Whether the nearer surface shows at every covered pixel, in either drawing order.
 bool is_apart(CaseRenderer& renderer, CaseDraw nearer, CaseDraw farther, const Matrix& turn, double distance,
               double part) {
   const Matrix projection = perspective(90, 1, 0.1, kInfinity, true) * turn;
@@ -50,8 +50,8 @@ bool is_apart(CaseRenderer& renderer, CaseDraw nearer, CaseDraw farther, const M
   return seen > kSide;
 }
 
-// A floor below the viewer, `height` times what it is in `positions`, from straight below to 6 heights ahead
-// and `sides` to the left and right.
+// A floor below the viewer, at `height` times the distance in `positions`, from straight below to 6 heights
+// ahead and `sides` to the left and right.
 CaseDraw floor(double sides) {
   CaseDraw draw{.test_depth = true, .depth_func = Compare::greater};
   for (const auto& [x, z] :
@@ -61,11 +61,11 @@ CaseDraw floor(double sides) {
 }
 
 // z = 0.1 / distance. A relative difference of eps = 2^-23 is at least the step between two floats. Each of
-// the two depths is off by the roundings of the vertices' depths, whose shares are positive and sum up to the
-// depth, and by its own: by 2^-23 of itself. Twice that and a step are 3 eps; where all vertices are as far
-// away, there is one rounding, and it is 2. The vertices' places are snapped, all four alike.
+// the two depths has the roundings of the vertex depths, whose weights are positive and sum to 1, and its own
+// rounding: 2^-23 of itself. Twice that plus one step is 3 eps. If all vertices are equally far away there is
+// one rounding, and the sum is 2 eps. The vertex positions are snapped identically for both surfaces.
 TEST(DepthDistance, ReversedFloatsSeparateSurfacesOutToFiveMillion) {
-  constexpr int kMost = 1000;
+  constexpr int kMax = 1000;
   const auto figure = [](const auto& make_draw, const Matrix& turn, double farthest, int distances) {
     return [=](const MakeRenderer& make, bool is_tessera) {
       const auto renderer = make({.width = kSide,
@@ -78,9 +78,9 @@ TEST(DepthDistance, ReversedFloatsSeparateSurfacesOutToFiveMillion) {
       for (int n = 0; n < (is_tessera && long_tests() ? 20 * distances : distances); ++n) {
         const double distance = n == 0 ? farthest : 0.1 * std::pow(10 * farthest, rng.unit()) * 1.01;
         const CaseDraw draw = make_draw(rng);
-        for (int k = needed; k <= 16; ++k)  // all from the needed one on
+        for (int k = needed; k <= 16; ++k)  // every k from the smallest required
           if (!is_apart(*renderer, draw, draw, turn, distance, k * 0x1p-23)) needed = k + 1;
-        while (needed > 16 && needed < kMost &&
+        while (needed > 16 && needed < kMax &&
                !is_apart(*renderer, draw, draw, turn, distance, needed * 0x1p-23))
           ++needed;
       }
@@ -100,8 +100,8 @@ TEST(DepthDistance, ReversedFloatsSeparateSurfacesOutToFiveMillion) {
                     3, "2^-23", figure(floors(sides), rotate(roll, 0, 0, 1), 8e5, 30));
 }
 
-// depth = 1 - near / distance, exactly; at infinity, where w is 0 before the projection, the far end. What is
-// stored, and that it is drawn at all.
+// depth = 1 - near / distance, exactly; at infinity, where w is 0 before projection, the far end. Checks the
+// stored depth and that everything is drawn.
 TEST(DepthDistance, WithoutAFarEndEverythingIsDrawn) {
   for (const DepthCase& depth : kDepthCases)
     expect_figure(
@@ -112,8 +112,8 @@ TEST(DepthDistance, WithoutAFarEndEverythingIsDrawn) {
           Rng rng(22);
           long double worst = 0;
           for (int n = 0; n < (is_tessera && long_tests() ? 3000 : 100); ++n) {
-            const double distance = n == 0 ? kInfinity : std::pow(10.0, 30 * rng.unit()),
-                         size = std::isinf(distance) ? 1 : distance;
+            const double distance = n == 0 ? kInfinity : std::pow(10.0, 30 * rng.unit());
+            const double size = std::isinf(distance) ? 1 : distance;
             CaseDraw draw{.test_depth = true,
                           .depth_func = Compare::gequal,
                           .transform = perspective(90, 1, 1, kInfinity) * scale(size, size, size)};
@@ -136,8 +136,8 @@ TEST(DepthDistance, WithoutAFarEndEverythingIsDrawn) {
         });
 }
 
-// A floor without end: up to the horizon each pixel shows it, none beyond, and no pixel is nearer than one
-// below it.
+// A floor without end: every pixel up to the horizon shows it, none above does, and depth never decreases
+// towards the horizon.
 TEST(DepthDistance, AFloorReachesTheHorizon) {
   for (const bool reversed : {false, true})
     for (const DepthCase& depth : kDepthCases)
@@ -160,7 +160,8 @@ TEST(DepthDistance, AFloorReachesTheHorizon) {
                       for (std::size_t y = 0; y < kSide; ++y)
                         for (std::size_t x = 0; x < kSide; ++x) {
                           const std::size_t at = y * kSide + x;
-                          const bool is_floor = y >= kSide / 2, is_drawn = picture.colors[at][0] > 0;
+                          const bool is_floor = y >= kSide / 2;
+                          const bool is_drawn = picture.colors[at][0] > 0;
                           const bool is_nearer = is_floor && y > kSide / 2 &&
                                                  (reversed ? picture.depth[at - kSide] > picture.depth[at]
                                                            : picture.depth[at - kSide] < picture.depth[at]);

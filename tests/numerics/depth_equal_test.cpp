@@ -1,6 +1,6 @@
-// Depths are a matter of the triangle and nothing else: drawn again, it is equal to itself at every pixel,
-// whatever it is part of, however it is clipped, coloured or tested, on each instruction set, in tiles of any
-// size, with any number of samples. No tolerance.
+// The depth of a triangle depends on nothing but the triangle. Drawn again, it equals itself at every pixel,
+// within any mesh, however it is clipped, coloured or tested, on each instruction set, at every tile size and
+// sample count. No tolerance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,8 +21,8 @@ namespace {
 
 constexpr int kSide = 128;
 
-// Whole ones, and ones that the near plane, the far plane or the guard band cuts. Four vertices for each: a
-// quad.
+// Whole triangles, and triangles cut by the near plane, the far plane or the guard band. Four vertices each:
+// a quad.
 std::vector<float> random_corners(Rng& rng) {
   std::vector<float> positions;
   const auto add = [&](double x, double y, double z, double w) {
@@ -44,7 +44,8 @@ std::vector<float> random_corners(Rng& rng) {
 }
 
 struct Twice {
-  CaseDraw first, again;
+  CaseDraw first;
+  CaseDraw again;
 };
 
 Twice two_triangles(Rng& rng) {
@@ -59,9 +60,10 @@ Twice two_triangles(Rng& rng) {
   return twice;
 }
 
-// In the middle of a larger mesh, with everything else in other places; what is added is not seen.
+// Embeds the draw in a larger mesh at different indices. The added triangles are invisible.
 CaseDraw larger_mesh(Rng& rng, CaseDraw draw) {
-  const std::vector<float> original = draw.positions, more = random_corners(rng);
+  const std::vector<float> original = draw.positions;
+  const std::vector<float> more = random_corners(rng);
   draw.positions.clear();
   draw.indices.clear();
   for (int n = 0; n < 40; ++n) {
@@ -74,7 +76,7 @@ CaseDraw larger_mesh(Rng& rng, CaseDraw draw) {
   return draw;
 }
 
-// Triangles all over the window, farther than what is there.
+// Triangles all over the window, behind the existing surface.
 CaseDraw others(Rng& rng) {
   CaseDraw draw{.color = {0, 0, 1, 1}, .test_depth = true, .depth_near = 1, .depth_far = 1};
   for (int n = 0; n < 20; ++n) {
@@ -111,8 +113,8 @@ TEST(DepthEqual, TheSameTriangleAgainIsEqualEverywhere) {
                   });
 }
 
-// Not a question to Mesa, which splits quads and polygons in ways of its own.
-TEST(DepthEqual, SoItIsAsAPartOfOtherPrimitives) {
+// Not compared with Mesa, which splits quads and polygons differently.
+TEST(DepthEqual, TheSameTriangleIsEqualInOtherPrimitives) {
   for (const DepthCase& depth : kDepthCases) {
     const auto renderer = make_tessera({.width = kSide, .height = kSide, .depth = depth.format});
     Rng rng(33);
@@ -133,12 +135,12 @@ TEST(DepthEqual, SoItIsAsAPartOfOtherPrimitives) {
   }
 }
 
-// States that make a draw take another way through the engine. What they colour does not matter.
-struct Way {
+// States that select another path through the engine. The colours do not matter.
+struct ShadingPath {
   const char* name;
   void (*change)(DrawState& state, const Texture& texture);
 };
-constexpr Way kWays[] = {
+constexpr ShadingPath kShadingPaths[] = {
     {"plain", [](DrawState&, const Texture&) {}},
     {"depth alone",
      [](DrawState& s, const Texture&) {
@@ -168,8 +170,8 @@ constexpr Way kWays[] = {
      }},
 };
 
-// In rectangles that together are the window: cut into other parts, small triangles and large ones go other
-// ways.
+// Draws in rectangles that tile the window, so that clipping differs and small and large triangles take
+// different paths.
 void draw_in_parts(Frame& frame, const Mesh& mesh, DrawState state, int step) {
   for (int y = 0; y < kSide; y += step)
     for (int x = 0; x < kSide; x += step) {
@@ -178,7 +180,7 @@ void draw_in_parts(Frame& frame, const Mesh& mesh, DrawState state, int step) {
     }
 }
 
-TEST(DepthEqual, HoweverItIsDrawn) {
+TEST(DepthEqual, TheSameTriangleIsEqualOnEveryPath) {
   const std::uint8_t texels[4] = {40, 255, 130, 90};
   const Texture texture({.pixels = texels, .width = 2, .height = 2, .channels = 1});
   Rng rng(32);
@@ -187,7 +189,8 @@ TEST(DepthEqual, HoweverItIsDrawn) {
     for (const int samples : {1, 4, 8}) {
       FrameBuffer buffer({.width = kSide, .height = kSide, .depth = depth.format, .samples = samples});
       for (int round = 0; round < (long_tests() ? 40 : 1); ++round) {
-        std::vector<float> positions, texcoords;
+        std::vector<float> positions;
+        std::vector<float> texcoords;
         for (int n = 0; n < 12; ++n) {
           const std::vector<float> corners = random_corners(rng);
           positions.insert(positions.end(), corners.begin(), corners.begin() + 12);
@@ -205,7 +208,7 @@ TEST(DepthEqual, HoweverItIsDrawn) {
               Frame frame(buffer);
               frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0, .stencil = 0});
               first(frame);
-              // Only what is equal brings its colour to the end.
+              // Only fragments of equal depth reach the colour buffer.
               frame.clear({.color = Color{0, 0, 0, 1}});
               DrawState again = last;
               again.depth.test = Compare::equal;
@@ -215,7 +218,7 @@ TEST(DepthEqual, HoweverItIsDrawn) {
               buffer.read_color_words(words);
               return words;
             };
-            if (!expected) {  // what it covers, without a depth test
+            if (!expected) {  // covered pixels, without a depth test
               Frame frame(buffer);
               frame.clear({.color = Color{0, 0, 0, 1}});
               DrawState plain = last;
@@ -227,17 +230,17 @@ TEST(DepthEqual, HoweverItIsDrawn) {
               compared += static_cast<std::size_t>(std::count_if(
                   expected->begin(), expected->end(), [](std::uint32_t word) { return word != 0; }));
             }
-            const auto where = [&](const std::string& way) {
-              return way + ", " + depth.name + ", " + std::to_string(samples) + " samples, " +
+            const auto where = [&](const std::string& path) {
+              return path + ", " + depth.name + ", " + std::to_string(samples) + " samples, " +
                      std::string(name(set)) + ", tiles of " + std::to_string(tile_size);
             };
-            for (const Way& way : kWays) {
+            for (const ShadingPath& path : kShadingPaths) {
               const auto words = words_of([&](Frame& frame) {
                 DrawState state = last;
-                way.change(state, texture);
+                path.change(state, texture);
                 frame.draw(mesh, state);
               });
-              ASSERT_TRUE(words == *expected) << where(way.name);
+              ASSERT_TRUE(words == *expected) << where(path.name);
             }
             for (const int step : {4, 13, 64})
               ASSERT_TRUE(words_of([&](Frame& frame) { draw_in_parts(frame, mesh, last, step); }) ==

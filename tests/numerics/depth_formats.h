@@ -1,4 +1,4 @@
-// The depth formats, and the levels that exact depths have in them.
+// Depth formats and the levels of exact depths in them.
 #pragma once
 
 #include <bit>
@@ -17,7 +17,7 @@ struct DepthCase {
   int bits;
   const char* name;
   bool is_float() const { return format == DepthFormat::float32; }
-  /// The largest stored number.
+  /// Largest stored integer.
   std::int64_t levels() const { return (std::int64_t{1} << bits) - 1; }
 };
 inline constexpr DepthCase kUnorm16{DepthFormat::unorm16, 16, "16 bits"},
@@ -31,7 +31,7 @@ inline Whole floor_of(Whole numerator, Whole denominator) {
   return numerator / denominator - (numerator % denominator < 0 ? 1 : 0);
 }
 
-/// floor(z (2^b - 1) + 1/2) of a depth that is a fraction.
+/// floor(z (2^b - 1) + 1/2) of the depth z = numerator / denominator.
 inline std::int64_t exact_level(const DepthCase& depth, Whole numerator, Whole denominator) {
   return static_cast<std::int64_t>(floor_of(2 * numerator * depth.levels() + denominator, 2 * denominator));
 }

@@ -1,5 +1,5 @@
-// Polygon offset, against the same triangles without one and the exact slope of the plane through the snapped
-// vertices.
+// Polygon offset, against the same triangles without offset and the exact slope of the plane through the
+// snapped vertices.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 namespace tessera::test {
 namespace {
 
-// An offset is a triangle's own, whichever the window.
+// One window: an offset does not depend on it.
 constexpr Window kWindow[] = {{256, 256, 6}};
 
-// Calls pixel(triangle, offset, what is stored without it, what with it).
+// Calls pixel(triangle, offset, stored depth without offset, stored depth with offset).
 template <class Pixel>
 void for_each_pair(const MakeRenderer& make, const DepthCase& depth, int rounds,
                    const std::vector<PolygonOffset>& offsets, const Pixel& pixel) {
@@ -38,7 +38,7 @@ void for_each_pair(const MakeRenderer& make, const DepthCase& depth, int rounds,
   }
 }
 
-TEST(DepthOffset, OfWholeUnitsIsExact) {
+TEST(DepthOffset, WholeUnitsAreExact) {
   for (const DepthCase& depth : kUnorms)
     expect_figure(
         "depth, " + std::string(depth.name) + ", offset by whole units", 0, "levels",
@@ -55,14 +55,16 @@ TEST(DepthOffset, OfWholeUnitsIsExact) {
         });
 }
 
-/// Depth for each pixel, in parts of the whole range.
+/// Depth change per pixel, in fractions of the whole range.
 struct Slope {
   long double steepest = 0;     // max(|dz/dx|, |dz/dy|)
-  long double of_rounding = 0;  // what it gains where each vertex's depth does, by 1
-  long double terms = 0;        // what it is the difference of
+  long double of_rounding = 0;  // change of the slope if each vertex depth changes by 1
+  long double terms = 0;        // sum of the magnitudes whose difference is the slope
 };
 Slope slope_of(const Tilted& t) {
-  long double along[2] = {}, rounding[2] = {}, terms[2] = {};
+  long double along[2] = {};
+  long double rounding[2] = {};
+  long double terms[2] = {};
   const GridPoint origin;
   for (std::size_t k = 0; k < 3; ++k) {
     const GridPoint steps[] = {{kGrid, 0}, {0, kGrid}};
@@ -82,9 +84,9 @@ Slope slope_of(const Tilted& t) {
 
 const std::vector<PolygonOffset> kOffsets = {{1, 0}, {-1, -1}, {2.5f, 3.25f}, {-0.125f, 0.75f}, {1000, 0}};
 
-// Words of 32 bits are moved by one, rounded; the vertices' own are rounded, too, which makes slopes. Of less
-// bits, what is lost below a level is not seen.
-TEST(DepthOffset, OfSlopesIsRoundedOnce) {
+// Depths of 32 bits move by one rounded offset; the rounding of the vertex depths also changes the slope. At
+// 16 and 24 bits the part below one level is invisible.
+TEST(DepthOffset, SlopesRoundOnce) {
   for (const DepthCase& depth : kUnorms)
     expect_figure(
         "depth, " + std::string(depth.name) + ", offset by slopes", 1, "of one rounding",
@@ -94,12 +96,12 @@ TEST(DepthOffset, OfSlopesIsRoundedOnce) {
               make, depth, rounds_of(is_tessera), kOffsets,
               [&](const Tilted& t, const PolygonOffset& offset, std::uint32_t plain, std::uint32_t stored) {
                 const Slope slope = slope_of(t);
-                const auto levels = static_cast<long double>(depth.levels()),
-                           word = std::ldexp(1.0L, depth.bits - 32),
-                           factor = static_cast<long double>(std::abs(offset.factor));
+                const auto levels = static_cast<long double>(depth.levels());
+                const auto word = std::ldexp(1.0L, depth.bits - 32);
+                const auto factor = static_cast<long double>(std::abs(offset.factor));
                 const long double move = offset.factor * slope.steepest * levels + offset.units;
-                const long double of_vertices = 0.5L * word * factor * slope.of_rounding,
-                                  of_gradients = 0x1p-51L * factor * slope.terms * levels;
+                const long double of_vertices = 0.5L * word * factor * slope.of_rounding;
+                const long double of_gradients = 0x1p-51L * factor * slope.terms * levels;
                 const long double bound =
                     (depth.bits == 32 ? 0.5L : 1.0L) + 0.5L * word + of_vertices + of_gradients;
                 update_worst(worst, std::abs(stored - std::clamp(plain + move, 0.0L, levels)) / bound);
@@ -108,7 +110,7 @@ TEST(DepthOffset, OfSlopesIsRoundedOnce) {
         });
 }
 
-TEST(DepthOffset, OfFloatsIsRoundedTwice) {
+TEST(DepthOffset, FloatDepthsRoundTwice) {
   expect_figure(
       "depth, floats, offset by slopes and units", 1, "of u of the depth and of the offset",
       [&](const MakeRenderer& make, bool is_tessera) {
@@ -118,11 +120,11 @@ TEST(DepthOffset, OfFloatsIsRoundedTwice) {
             [&](const Tilted& t, const PolygonOffset& offset, std::uint32_t plain, std::uint32_t stored) {
               const Slope slope = slope_of(t);
               const std::int64_t largest = std::max({t.z[0], t.z[1], t.z[2]});
+              // At the largest depth of the triangle.
               const long double unit = std::ldexp(
-                  1.0L, (largest > 0 ? std::ilogb(static_cast<double>(largest)) - kFraction : -126) -
-                            23);  // at the triangle's largest depth
-              const long double move = offset.factor * slope.steepest + offset.units * unit,
-                                exact = std::clamp(float_of(plain) + move, 0.0L, 1.0L);
+                  1.0L, (largest > 0 ? std::ilogb(static_cast<double>(largest)) - kFraction : -126) - 23);
+              const long double move = offset.factor * slope.steepest + offset.units * unit;
+              const long double exact = std::clamp(float_of(plain) + move, 0.0L, 1.0L);
               const long double bound = 0x1p-24L * (exact + std::abs(move)) +
                                         0x1p-51L * std::abs(offset.factor) * slope.terms + 0x1p-149L;
               update_worst(worst, std::abs(float_of(stored) - exact) / bound);

@@ -1,10 +1,10 @@
-// How depths are rounded to each format: of clears and bitmaps at every kind of double against exact numbers;
-// and that a polygon which is parallel to the screen has the very level of a clear to its depth.
+// Rounding of depths to each format: clears and bitmaps with all kinds of doubles, against exact numbers; and
+// a polygon parallel to the screen stores exactly the level of a clear to its depth.
 //
-// The bound. floor(z (2^b - 1) + 0.5) in doubles: the product and the sum, up to 2^b, are each rounded to
-// 2^(b - 54). So next to a middle between two levels the farther of them may be stored, by less than 2^(b -
-// 53) of a level: 0.3, which as a double is less than 3/10, is the level of 3/10. Anywhere else it is the
-// nearest level, as of a float the nearest float.
+// The bound: floor(z (2^b - 1) + 0.5) in double rounds the product and the sum, both up to 2^b, by 2^(b - 54)
+// each. So next to the middle between two levels the farther level may be stored, by less than 2^(b - 53) of
+// a level; e.g. 0.3, which as a double is less than 3/10, stores the level of 3/10. Everywhere else the
+// nearest level is stored, and for float32 the nearest float.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,8 @@ namespace {
 constexpr DepthFormat kFormats[] = {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32,
                                     DepthFormat::float32};
 int bits_of(DepthFormat format) {
-  return format == DepthFormat::unorm16 ? 16 : format == DepthFormat::unorm24 ? 24 : 32;
+  if (format == DepthFormat::unorm16) return 16;
+  return format == DepthFormat::unorm24 ? 24 : 32;
 }
 std::string name_of(DepthFormat format) {
   return format == DepthFormat::float32 ? "float" : std::to_string(bits_of(format)) + " bits";
@@ -36,15 +37,16 @@ long double beyond_half(DepthFormat format) {
   return format == DepthFormat::float32 ? 0 : std::ldexp(1.0L, bits_of(format) - 53);
 }
 
-/// How far a word is from a depth, in levels, beyond half a level; of floats 0 for the nearest and 1 for any
-/// other. @pre z is 0, or above 2^-47
+/// Distance of a stored depth from the exact one beyond half a level, in levels. For float32: 0 for the
+/// nearest float, 1 for any other.
+/// @pre z is 0 or above 2^-47
 long double beyond(DepthFormat format, double z, std::uint32_t word) {
   if (format == DepthFormat::float32)
     return word == std::bit_cast<std::uint32_t>(std::abs(static_cast<float>(z))) ? 0 : 1;
   return (Ratio::of(z) * ((std::int64_t{1} << bits_of(format)) - 1)).distance(word) - 0.5L;
 }
 
-/// Levels, the middles between them, and what is next to both; the ends, and decimals as people write them.
+/// Levels, the middles between them and their neighbours, the ends of the range, and decimal fractions.
 std::vector<double> telling_depths(DepthFormat format, Random& random, int count) {
   std::vector<double> depths{0,
                              -0.0,
@@ -58,10 +60,10 @@ std::vector<double> telling_depths(DepthFormat format, Random& random, int count
   for (int i = 0; i <= 100; ++i) depths.push_back(i / 100.0);
   const double levels = std::ldexp(1.0, format == DepthFormat::float32 ? 24 : bits_of(format)) - 1;
   for (int i = 0; i < count; ++i) {
-    const double level = i < 40   ? i
-                         : i < 80 ? levels - (i - 40)
-                                  : std::floor((random.next() + random.next() * 0x1p-32) * 0x1p-32 * levels),
-                 half = i % 2 == 0 ? 0.5 : 0.0;
+    double level = i;
+    if (i >= 40) level = levels - (i - 40);
+    if (i >= 80) level = std::floor((random.next() + random.next() * 0x1p-32) * 0x1p-32 * levels);
+    const double half = i % 2 == 0 ? 0.5 : 0.0;
     const double at = std::min((level + half) / levels, 1.0);
     for (const double z : {std::nextafter(at, 0.0), at, at == 0 ? 0x1p-46 : std::nextafter(at, 2.0)})
       depths.push_back(std::min(z, 1.0));
@@ -85,7 +87,7 @@ std::vector<std::uint32_t> words_of(DepthFormat format, const std::vector<double
 }
 void clear_to(Frame& frame, Rect at, double z) { frame.clear({.depth = z, .scissor = at}); }
 
-TEST(DepthRounding, OfClearsAndBitmapsIsToTheNearestLevel) {
+TEST(DepthRounding, RoundsClearsAndBitmapsToTheNearestLevel) {
   Random random(1);
   for (const DepthFormat format : kFormats) {
     const std::vector<double> depths = telling_depths(format, random, long_tests() ? 100000 : 2000);
@@ -108,9 +110,9 @@ TEST(DepthRounding, OfClearsAndBitmapsIsToTheNearestLevel) {
   }
 }
 
-// Roundings on the way take a vertex that is stored as the middle of a level, and one that is moved from
-// there by a level, to the very middles.
-TEST(DepthRounding, OfVerticesInTheMiddleOfLevelsLeavesThemThere) {
+// A vertex stored as the middle of a level stays exactly there, also after being moved by one level, despite
+// the roundings in between.
+TEST(DepthRounding, KeepsVerticesInTheMiddleOfLevels) {
   Random random(2);
   for (const int bits : {16, 24}) {
     const std::uint32_t levels = (1u << bits) - 1;
@@ -136,41 +138,46 @@ TEST(DepthRounding, OfVerticesInTheMiddleOfLevelsLeavesThemThere) {
   }
 }
 
-// Any depth range that is one depth.
-TEST(DepthRounding, OfADepthRangeOfOneDepthIsThatOfClears) {
+// Any depth range whose ends are equal.
+TEST(DepthRounding, EmptyDepthRangeStoresTheLevelOfAClear) {
   Random random(3);
   const MeshData all = whole_window(0.4f);
   for (const DepthFormat format : kFormats) {
     const std::vector<double> depths = telling_depths(format, random, 500);
-    const auto clears = words_of(format, depths, clear_to),
-               polygons = words_of(format, depths, [&](Frame&frame, Rect at, double z) {
-                 DrawState state;
-                 state.depth.test = Compare::always;
-                 state.scissor = at;
-                 state.depth_near = state.depth_far = z;
-                 frame.draw(all.view(), state);
-               });
+    const auto clears = words_of(format, depths, clear_to);
+    const auto polygons = words_of(format, depths, [&](Frame& frame, Rect at, double z) {
+      DrawState state;
+      state.depth.test = Compare::always;
+      state.scissor = at;
+      state.depth_near = state.depth_far = z;
+      frame.draw(all.view(), state);
+    });
     for (std::size_t i = 0; i < depths.size(); ++i)
       ASSERT_EQ(polygons[i], clears[i]) << std::hexfloat << depths[i] << ", " << name_of(format);
   }
 }
 
-/// Clip coordinates z whose window depth is a double, exactly: 0.5 z + 0.5, or reversed z itself.
+/// Clip coordinates z whose window depth is exactly representable as a double: 0.5 z + 0.5, or z itself when
+/// reversed.
 std::vector<float> telling_clip_depths(DepthFormat format, bool reversed, Random& random) {
   std::vector<float> telling;
   for (const double z : telling_depths(format, random, long_tests() ? 5000 : 300)) {
-    const float at = static_cast<float>(reversed ? z : 2 * z - 1), low = reversed ? 0.0f : -1.0f;
+    const float at = static_cast<float>(reversed ? z : 2 * z - 1);
+    const float low = reversed ? 0.0f : -1.0f;
     for (const float f : {std::nextafter(at, low), at, std::nextafter(at, 1.0f)})
       if (reversed ? f == 0 || f > 0x1p-30f : std::abs(f) > 0x1p-28f) telling.push_back(f);
   }
   return telling;
 }
 
-// Whole triangles, small ones and such as are clipped; points and lines; on each instruction set, with one
-// sample and several.
-TEST(DepthRounding, OfWhatIsParallelToTheScreenIsThatOfClears) {
-  constexpr int kWidth = 96, kHeight = 64, kCell = 8, kColumns = kWidth / kCell,
-                kCells = kColumns * (kHeight / kCell);
+// Whole triangles, small triangles, clipped triangles, points and lines; on each instruction set, with one
+// and several samples.
+TEST(DepthRounding, PrimitivesParallelToTheScreenStoreTheLevelOfAClear) {
+  constexpr int kWidth = 96;
+  constexpr int kHeight = 64;
+  constexpr int kCell = 8;
+  constexpr int kColumns = kWidth / kCell;
+  constexpr int kCells = kColumns * (kHeight / kCell);
   Random random(2);
   int turn = 0;
   for (const DepthFormat format : kFormats)
@@ -187,9 +194,9 @@ TEST(DepthRounding, OfWhatIsParallelToTheScreenIsThatOfClears) {
           const std::size_t count = std::min<std::size_t>(kCells, telling.size() - first);
           std::vector<MeshData> meshes;
           for (std::size_t i = 0; i < count; ++i) {
-            const float z = telling[first + i], size = i % 3 == 0   ? 1.0f
-                                                       : i % 3 == 1 ? 1000.0f
-                                                                    : 1e6f;  // of the viewport's half
+            constexpr float kSizes[] = {1.0f, 1000.0f, 1e6f};  // in units of half the viewport
+            const float z = telling[first + i];
+            const float size = kSizes[i % 3];
             MeshData mesh = rectangle(-size, -size, size, size, z);
             if (i % 5 == 4) {
               mesh = {};

@@ -1,4 +1,4 @@
-// Functions of one float, measured at one in so many of all floats there are; with TESSERA_LONG at each.
+// Samples functions of one float at a fraction of all floats; at every float if TESSERA_LONG is set.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 namespace tessera::test {
 using namespace detail;
 
-/// |found - exact| in units in the last place (ulp) of `exact`, a double or a long double within the doubles'
-/// normal range.
+/// |found - exact| in units in the last place (ulp) of `exact`, a double or a long double within the normal
+/// range of doubles.
 template <class Real>
 Real ulps(float found, Real exact) {
   const Real size = std::abs(exact);
@@ -28,13 +28,13 @@ Real ulps(float found, Real exact) {
 
 inline std::uint32_t bits_of(float f) { return std::bit_cast<std::uint32_t>(f); }
 
-inline constexpr std::uint32_t kSampled = 2039;           // a prime: no bit of the mantissa stays what it is
-inline constexpr std::size_t kFloatBatch = kBatchPoints;  // what kernels are given at a time
+inline constexpr std::uint32_t kSampled = 2039;           // a prime, so that all mantissa bits vary
+inline constexpr std::size_t kFloatBatch = kBatchPoints;  // floats per kernel call
 inline constexpr std::size_t kFloatChunk = 65536;
 static_assert(kFloatChunk % kFloatBatch == 0);
 
-/// Floats from the bits `first` to `last`, one in `step` (of 2039: every exponent has some 4100, evenly), and
-/// in long runs each; whole batches at a time.
+/// Calls with whole batches of the floats from the bits `first` to `last`, one in `step` (2039: about 4100
+/// per exponent, evenly spaced), every float in long runs.
 inline void for_floats(std::uint32_t first, std::uint32_t last,
                        const std::function<void(const std::vector<float>&)>& chunk,
                        std::uint32_t step = kSampled) {

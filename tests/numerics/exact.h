@@ -1,4 +1,4 @@
-// Quotients of whole numbers of 128 bits: what a double is exactly, and what it is rounded to.
+// Quotients of 128-bit integers: the exact value of a double, and its rounding.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,8 @@ __extension__ typedef __int128 Int128;
 
 /// Not reduced; the denominator is above 0.
 struct Ratio {
-  Int128 numerator = 0, denominator = 1;
+  Int128 numerator = 0;
+  Int128 denominator = 1;
 
   /// @pre |value| is 0 or has no bit below 2^-100, and is below 2^30
   static Ratio of(double value) {
@@ -28,9 +29,9 @@ struct Ratio {
   friend Ratio operator/(Ratio a, std::int64_t b) { return {a.numerator, a.denominator * b}; }
 
   Int128 floor() const { return numerator / denominator - (numerator % denominator < 0 ? 1 : 0); }
-  /// The nearest whole number, halves up.
+  /// Nearest integer, halves up.
   Int128 rounded() const { return Ratio{2 * numerator + denominator, 2 * denominator}.floor(); }
-  /// How far a whole number is from it.
+  /// Distance of an integer from the quotient.
   long double distance(Int128 whole) const {
     const Int128 off = whole * denominator - numerator;
     return static_cast<long double>(off < 0 ? -off : off) / static_cast<long double>(denominator);

@@ -1,9 +1,9 @@
-// What of a plane in clip space is seen in a window: regions between straight lines whose coefficients are
-// whole numbers, exact as they stand.
+// Exact visible regions of a plane in clip space: window regions bounded by straight lines with whole-number
+// coefficients.
 //
-// A point p0 a + p1 b + p2 c of the plane through three points (as vectors of x y z w) is seen at the window
-// point q = (X, Y, 1) if its x, y and w are a positive multiple of q. So a, b and c are linear functions of
-// q, by Cramer's rule; and with them z, all distances from clip planes, and attributes.
+// A point p0 a + p1 b + p2 c of the plane through three points (x y z w vectors) is visible at the window
+// point q = (X, Y, 1) if its x, y and w are a positive multiple of q. By Cramer's rule a, b and c are linear
+// functions of q; so are z, all clip plane distances, and attributes.
 #pragma once
 
 #include <algorithm>
@@ -18,19 +18,23 @@ namespace tessera::test {
 
 __extension__ using Wide = __int128;
 
-/// Clip space in whole numbers.
+/// A point in clip space with integer coordinates.
 struct ClipPoint {
   std::int64_t x = 0, y = 0, z = 0, w = 1;
 };
 
-/// A square viewport; x, y is its lower left corner, in pixels from the buffer's.
+/// A square viewport; x, y is its lower left corner in pixels, relative to the buffer's.
 struct SquareViewport {
-  int x = 0, y = 0, side = 64;
+  int x = 0;
+  int y = 0;
+  int side = 64;
 };
 
-/// x dx + y dy + one, of a point of the window in half pixels from the viewport's centre.
+/// x dx + y dy + one, for a window point in half pixels from the viewport's centre.
 struct Linear {
-  Wide dx = 0, dy = 0, one = 0;
+  Wide dx = 0;
+  Wide dy = 0;
+  Wide one = 0;
   Wide at(Wide x, Wide y) const { return dx * x + dy * y + one; }
   long double at(long double x, long double y) const {
     return static_cast<long double>(dx) * x + static_cast<long double>(dy) * y +
@@ -42,13 +46,14 @@ struct Linear {
   friend Linear operator*(std::int64_t f, const Linear& a) { return {f * a.dx, f * a.dy, f * a.one}; }
 };
 
-/// How far a vertex may be drawn from where it is, in x and in y: half of the 1/256 pixel to which it snaps.
-/// Where it is clipped its coordinates are rounded in double before, and each of these roundings moves it by
-/// about 2^-52 of 16,383 pixels, which is in the 2^-12 pixels more. In half pixels, over kReachScale.
-inline constexpr int kReach = 9, kReachScale = 2048;
+/// Largest distance in x and in y between a vertex as drawn and its exact position: half of the 1/256 pixel
+/// snapping step plus 2^-12 pixel. The latter covers the double roundings of clipping, each about 2^-52 of
+/// 16,383 pixels. The distance is kReach / kReachScale half pixels.
+inline constexpr int kReach = 9;
+inline constexpr int kReachScale = 2048;
 static_assert(kReach == kReachScale / 256 + kReachScale / 2048);
 
-/// The three coordinates of what is seen at a point of the window, positive multiples of a, b and c above.
+/// Coordinates of the plane's point visible at a window point: positive multiples of a, b and c above.
 struct VisiblePlane {
   std::array<Linear, 3> coordinates;
 
@@ -57,7 +62,7 @@ struct VisiblePlane {
   }
 };
 
-/// Nothing of a plane through the eye.
+/// Empty for a plane through the eye.
 inline std::optional<VisiblePlane> visible_plane(const std::array<ClipPoint, 3>& p,
                                                  const SquareViewport& view) {
   VisiblePlane seen;
@@ -76,15 +81,15 @@ inline std::optional<VisiblePlane> visible_plane(const std::array<ClipPoint, 3>&
   return seen;
 }
 
-/// Where all of several functions are positive.
+/// The region where all of several functions are positive.
 struct ExactRegion {
-  std::vector<Linear> inside;   ///< the region
-  std::vector<Linear> outside;  ///< nothing is drawn where one of them is negative
+  std::vector<Linear> inside;   ///< bounds of the region
+  std::vector<Linear> outside;  ///< Nothing is drawn where any of these is negative.
 
   enum class Side { in, out, near_edge };
-  /// Near the edge are points that are in after a move by kReach in x and y, and out after another: vertices
-  /// are drawn that far from where they are, so what is drawn of a convex polygon holds all that is farther
-  /// inside, and nothing that is farther outside than that.
+  /// `near the edge`: the point is inside after some move of up to kReach in x and y, and outside after
+  /// another. Vertices are drawn within that distance, so the drawn part of a convex polygon contains every
+  /// point farther inside and no point farther outside.
   Side side(Wide x, Wide y) const {
     const auto margin = [](const Linear& l) {
       return kReach * ((l.dx < 0 ? -l.dx : l.dx) + (l.dy < 0 ? -l.dy : l.dy));
@@ -99,13 +104,13 @@ struct ExactRegion {
   }
 };
 
-/// A pixel's centre in half pixels from the viewport's; rows of a buffer that is `height` pixels high from
-/// the top.
+/// Centre of a pixel in half pixels from the viewport's centre; rows from the top of a buffer that is
+/// `height` pixels high.
 inline std::array<Wide, 2> center_of(int column, int row, int height, const SquareViewport& view) {
   return {2 * (column - view.x) + 1 - view.side, 2 * (height - 1 - row - view.y) + 1 - view.side};
 }
 
-/// How often a mesh without gaps and overlaps that fills the region covers the pixels of a buffer.
+/// Expected coverage of a buffer's pixels by a mesh that fills the region without gaps and overlaps.
 inline std::vector<Cover> covers_of(const ExactRegion& region, int width, int height,
                                     const SquareViewport& view) {
   std::vector<Cover> covers;
@@ -113,9 +118,8 @@ inline std::vector<Cover> covers_of(const ExactRegion& region, int width, int he
     for (int column = 0; column < width; ++column) {
       const auto [x, y] = center_of(column, row, height, view);
       const ExactRegion::Side side = region.side(x, y);
-      covers.push_back(side == ExactRegion::Side::in    ? Cover::once
-                       : side == ExactRegion::Side::out ? Cover::never
-                                                        : Cover::at_most_once);
+      if (side == ExactRegion::Side::in) covers.push_back(Cover::once);
+      else covers.push_back(side == ExactRegion::Side::out ? Cover::never : Cover::at_most_once);
     }
   return covers;
 }

@@ -1,8 +1,8 @@
-// The caller's floating-point environment: each rounding, flush to zero, denormals as zero, each with and
-// without traps, around every call of the interface. It changes no bit of what comes out, is not changed by
-// it, and no trap springs, whatever the numbers are.
+// The caller's floating-point environment: every rounding mode, flush to zero, denormals as zero, each with
+// and without traps, around every call of the interface. It changes no bit of any result, no call changes it,
+// and no trap fires, whatever the inputs.
 //
-// Between the modes' begin and end nothing is computed but by the library.
+// Only library calls run between setting and restoring a mode.
 #include <gtest/gtest.h>
 
 #include "tests/numerics/host_mode.h"
@@ -34,7 +34,7 @@ std::string described(unsigned mode) {
   return text;
 }
 
-/// Runs `act` in each mode, after one run in the default one. Afterwards `result` tells what came out.
+/// Runs `act` in each mode, after one run in the default mode. `result` then returns the outcome.
 template <class Act, class Result>
 void expect_the_same_in_every_mode(const Act& act, const Result& result) {
   act();
@@ -59,7 +59,15 @@ std::vector<std::uint64_t> bits_of(std::initializer_list<Matrix> matrices) {
 }
 
 TEST(FloatingPointEnvironment, ChangesNoBitOfAMatrix) {
-  Matrix turned, seen, wide, skew, box, product, shadow, moved, scaled;
+  Matrix turned;
+  Matrix seen;
+  Matrix wide;
+  Matrix skew;
+  Matrix box;
+  Matrix product;
+  Matrix shadow;
+  Matrix moved;
+  Matrix scaled;
   Camera calibrated;
   Light light;
   light.position = {0.1f, 3.3f, 0.7f, 1};
@@ -109,7 +117,7 @@ TEST(FloatingPointEnvironment, ChangesNoColorOfAPalette) {
                            .stride_bytes = 12,
                            .order = PixelOrder::bgra8});
         Frame frame(buffer);
-        frame.clear({.color = Color{0.6f, 0.1f, 0.3f, 1}});  // to the nearest entry
+        frame.clear({.color = Color{0.6f, 0.1f, 0.3f, 1}});  // quantized to the nearest entry
         Renderer({.threads = 1}).finish(frame);
         buffer.read_color({.pixels = shown.data() + 48, .width = 3, .height = 2, .stride_bytes = 12});
       },
@@ -124,11 +132,15 @@ TEST(FloatingPointEnvironment, ChangesNoColorOfAPalette) {
       });
 }
 
-/// Everything that can be read back, in the mode of whoever reads.
+/// Everything that can be read back, read in the given mode.
 struct ReadBack {
-  std::vector<std::uint32_t> words, depth_words;
-  std::vector<std::uint8_t> shown, stencil;
-  std::vector<float> depth, view_depth, accumulation;
+  std::vector<std::uint32_t> words;
+  std::vector<std::uint32_t> depth_words;
+  std::vector<std::uint8_t> shown;
+  std::vector<std::uint8_t> stencil;
+  std::vector<float> depth;
+  std::vector<float> view_depth;
+  std::vector<float> accumulation;
 
   explicit ReadBack(const FrameBufferFormat& f) {
     const std::size_t pixels = static_cast<std::size_t>(f.width * f.height);
@@ -171,8 +183,8 @@ std::vector<FrameBufferFormat> formats() {
   return all;
 }
 
-// Triangles, points, lines, outlines, textures, bitmaps, images, shadows, every operation and accumulation;
-// on every instruction set, with one thread and several.
+// Triangles, points, lines, outlines, textures, bitmaps, images, shadows, every fragment operation, and
+// accumulation, on every instruction set, with one and several threads.
 TEST(FloatingPointEnvironment, ChangesNoBitOfAFrame) {
   const ThreadLimit limit(3);
   std::vector<std::unique_ptr<Renderer>> renderers;
@@ -185,7 +197,8 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfAFrame) {
     std::uint64_t expected = 0;
     std::size_t turn = 0;
     for (const unsigned mode : HostModes::all()) {
-      FrameBuffer buffer(format), presented(format);
+      FrameBuffer buffer(format);
+      FrameBuffer presented(format);
       Frame frame(buffer), shown(presented);
       scene.record(frame);
       scene.record(shown);
@@ -217,22 +230,24 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfAFrame) {
   }
 }
 
-// Made, recorded and finished in the mode: textures, and draws whose numbers have to be worked out when they
-// are recorded.
-TEST(FloatingPointEnvironment, ChangesNoBitOfWhatIsRecordedInIt) {
+// Created, recorded and finished in the mode: textures, and draws whose recording computes values.
+TEST(FloatingPointEnvironment, ChangesNoBitOfAFrameRecordedInIt) {
   const FrameBufferFormat format{
       .width = 60, .height = 40, .depth = DepthFormat::float32, .accumulation_bits = 16};
   std::vector<std::uint8_t> texels;
   Random random(16);
   for (int i = 0; i < 4 * 13 * 11; ++i) texels.push_back(static_cast<std::uint8_t>(random.next()));
-  MeshData mesh = rectangle(-0.9f, -0.7f, 0.8f, 0.9f, -0.3f),
-           line = rectangle(-0.9f, 0.7f, 0.8f, -0.9f, 0.2f),
-           denormal = rectangle(-kDenormal, -kDenormal, kDenormal, kDenormal);
+  MeshData mesh = rectangle(-0.9f, -0.7f, 0.8f, 0.9f, -0.3f);
+  MeshData line = rectangle(-0.9f, 0.7f, 0.8f, -0.9f, 0.2f);
+  MeshData denormal = rectangle(-kDenormal, -kDenormal, kDenormal, kDenormal);
   mesh.texcoords = {0.1f, 0.3f, 1.9f, 0.2f, 2.3f, 1.7f, -0.3f, 1.1f};
   mesh.normals = {0.1f, 0.2f, 0.9f, 0.3f, -0.2f, 0.8f, kDenormal, 0, kDenormal, 0, 0.1f, 0.7f};
   line.primitive = Primitive::lines;
   line.indices = {0, 1, 1, 2, 2, 3, 3, 0};
-  DrawState lit, shadow, scaled, points;
+  DrawState lit;
+  DrawState shadow;
+  DrawState scaled;
+  DrawState points;
   lit.material.specular = {0.3f, 0.7f, 0.1f, 1};
   lit.material.shininess = 7.7f;
   lit.shading = Shading::phong;
@@ -247,7 +262,8 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfWhatIsRecordedInIt) {
   const std::vector<Light> lights{Light{}, spot};
   const Camera camera{.view = look_at({0.1, 0.2, 1.3}, {0, 0, 0}, {0, 1, 0}),
                       .projection = perspective(77, 1.5, 0.1, 9)};
-  const Accum half{.op = AccumOp::load, .value = 0.3337}, back{.op = AccumOp::return_color, .value = 2.1};
+  const Accum half{.op = AccumOp::load, .value = 0.3337};
+  const Accum back{.op = AccumOp::return_color, .value = 2.1};
   ReadBack found(format);
   std::string reasons;
   Renderer renderer({.threads = 1});
@@ -292,9 +308,9 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfWhatIsRecordedInIt) {
       [&] { return reasons + std::to_string(found.hash()); });
 }
 
-// Refused, with the same words: a trap for comparisons with NaN must not spring first. What is dropped is no
-// trap either.
-TEST(FloatingPointEnvironment, NeitherTrapsNorChangesWhatIsWrong) {
+// Invalid input is rejected with the same message: no trap may fire for a comparison with NaN. Dropped
+// primitives fire no trap either.
+TEST(FloatingPointEnvironment, NeitherTrapsOnNorChangesInvalidInput) {
   std::vector<std::function<void()>> wrong;
   const auto draw = [&](const std::function<void(DrawState&)>& change) {
     DrawState state;
@@ -315,7 +331,8 @@ TEST(FloatingPointEnvironment, NeitherTrapsNorChangesWhatIsWrong) {
     draw([&](DrawState& s) { s.alpha_test = AlphaTest{.ref = odd}; });
     draw([&](DrawState& s) { s.blend = BlendState{.color = {odd, 0, 0, 0}}; });
     draw([&](DrawState& s) { s.shadow_on = ShadowOn{.plane = {0, double{odd}, 0, 1}}; });
-    const Clear clear{.depth = double{odd}}, color{.color = Color{odd, 0, 0, 1}};
+    const Clear clear{.depth = double{odd}};
+    const Clear color{.color = Color{odd, 0, 0, 1}};
     const Accum accum{.value = double{odd}};
     Camera camera;
     camera.projection.m[3] = double{odd};
@@ -378,7 +395,7 @@ TEST(FloatingPointEnvironment, NeitherTrapsNorChangesWhatIsWrong) {
       [&] { return messages; });
   EXPECT_EQ(std::count(messages.begin(), messages.end(), "no error"), 0);
 
-  // A mesh of such vertices, in normals and texture coordinates as well.
+  // A mesh of such vertices, with such normals and texture coordinates.
   MeshData mesh = whole_window();
   mesh.normals = {0, 0, 1, kNan, 0, 1, 0, kInfinity, 0, 0, 0, 1};
   mesh.texcoords = {0, 0, kNan, 0, 3e38f, -3e38f, kDenormal, 0};
@@ -396,14 +413,15 @@ TEST(FloatingPointEnvironment, NeitherTrapsNorChangesWhatIsWrong) {
       [&] { return std::pair(words, stats.dropped_non_finite); });
 }
 
-TEST(FloatingPointEnvironment, IsAsBeforeAfterAFrameThatFails) {
-  FrameBuffer buffer({.width = 80, .height = 80}), lost({.width = 8, .height = 8});
+TEST(FloatingPointEnvironment, IsRestoredAfterAFailedFrame) {
+  FrameBuffer buffer({.width = 80, .height = 80});
+  FrameBuffer lost({.width = 8, .height = 8});
   const MeshData mesh = whole_window();
   bool stops = false;
-  Renderer renderer({.threads = 1, .progress = [&](double) { return !stops; }}),
-      logs({.threads = 1, .log = [](LogLevel level, std::string_view) {
-              if (level == LogLevel::debug) throw std::runtime_error("full");
-            }});
+  Renderer renderer({.threads = 1, .progress = [&](double) { return !stops; }});
+  Renderer logs({.threads = 1, .log = [](LogLevel level, std::string_view) {
+                   if (level == LogLevel::debug) throw std::runtime_error("full");
+                 }});
   Frame frame(lost);
   frame.clear({.color = Color{}});
   frame.keep({});
@@ -413,7 +431,9 @@ TEST(FloatingPointEnvironment, IsAsBeforeAfterAFrameThatFails) {
   expect_the_same_in_every_mode(
       [&] {
         failures = 0;
-        Frame missing(lost), cancelled(buffer), logged(buffer);
+        Frame missing(lost);
+        Frame cancelled(buffer);
+        Frame logged(buffer);
         missing.draw(mesh.view());
         cancelled.draw(mesh.view());
         logged.draw(mesh.view());
@@ -437,7 +457,7 @@ TEST(FloatingPointEnvironment, IsAsBeforeAfterAFrameThatFails) {
   EXPECT_EQ(failures, 3);
 }
 
-/// Threads of a host that have modes of their own.
+/// Host threads, each with its own floating-point mode.
 class ThreadsWithModes : public Executor {
  public:
   int workers() const noexcept override { return 3; }
@@ -458,9 +478,10 @@ class ThreadsWithModes : public Executor {
   std::atomic<bool> touched = false;
 };
 
-TEST(FloatingPointEnvironment, OfAnExecutorsThreadsNeitherMattersNorChanges) {
+TEST(FloatingPointEnvironment, ExecutorThreadModesNeitherMatterNorChange) {
   const auto executor = std::make_shared<ThreadsWithModes>();
-  Renderer theirs({.threads = 3, .executor = executor}), ours({.threads = 1});
+  Renderer theirs({.threads = 3, .executor = executor});
+  Renderer ours({.threads = 1});
   for (const FrameBufferFormat& format : formats()) {
     const RandomOperations scene(format, 24);
     FrameBuffer plain(format);

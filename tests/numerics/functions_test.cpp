@@ -1,6 +1,5 @@
-// Our own sines, reciprocals of roots, levels of detail and distances of colours against results of long
-// double. They have the same bits on every instruction set, which other tests compare: the fastest is
-// measured.
+// Sines, reciprocal square roots, levels of detail and colour distances against long double. All instruction
+// sets give the same bits (other tests compare them), so only the fastest is measured.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +20,7 @@ namespace tessera::test {
 using namespace detail;
 namespace {
 
-TEST(Functions, SinesAndCosines) {
+TEST(MathFunctions, SinesAndCosines) {
   long double worst = 0;
   std::mt19937 random(5);
   const auto check = [&](double degrees) {
@@ -42,8 +41,8 @@ TEST(Functions, SinesAndCosines) {
   }
 }
 
-// The root of a rounded square is the number itself, and its reciprocal is rounded once.
-TEST(Functions, Reciprocals) {
+// The square root of a rounded square is the number itself; only the reciprocal rounds.
+TEST(MathFunctions, Reciprocals) {
   long double worst = 0;
   EyeLight light{.ambient = {0x1p-61f, 0, 0}, .diffuse = {0, 0, 0}, .specular = {0, 0, 0}};
   light.directional = false;
@@ -63,10 +62,10 @@ TEST(Functions, Reciprocals) {
   expect_within("1 / sqrt(x x), x in 2^-60 .. 2^60", worst, 0.5, "ulp");
 }
 
-// Half the logarithm of how many texels a pixel spans, squared: the polynomial is off by less than 1/65536,
-// its sums round at less than 2^15 with 24 bits, and truncating towards the nearest power of four takes or
-// adds up to another 1/65536.
-TEST(Functions, LevelsOfDetail) {
+// Half the logarithm of the squared number of texels per pixel. The polynomial is off by less than 1/65536.
+// Its sums are below 2^15 and round to 24 bits. Truncating towards the nearest power of four adds or removes
+// up to another 1/65536.
+TEST(MathFunctions, LevelsOfDetail) {
   long double worst = 0;
   for_floats(bits_of(1) + 1, bits_of(0x1p28f), [&](const std::vector<float>& footprints) {
     std::vector<std::int32_t> levels(footprints.size());
@@ -77,10 +76,10 @@ TEST(Functions, LevelsOfDetail) {
   expect_within("level of detail of 1 to 16384 texels a pixel", worst, 2.01L, "1/65536 level");
 }
 
-// A difference is off by 2^-24 for the entry's own rounding and one of its own; three squares and two sums
-// round at most three times each: of two entries the farther one may be taken where their squared distances
+// A difference is off by 2^-24 for the rounding of the entry and by its own rounding; three squares and two
+// sums round at most three times each. The farther of two entries may be chosen if their squared distances
 // differ by less than twice that.
-TEST(Functions, PaletteDistances) {
+TEST(MathFunctions, PaletteDistances) {
   std::mt19937 random(8);
   long double worst = 0;
   for (const int count : {2, 16, 256}) {
@@ -90,7 +89,7 @@ TEST(Functions, PaletteDistances) {
                                  static_cast<std::uint8_t>(random())});
     const PaletteSearch search(palette);
     for (int n = 0; n < (long_tests() ? 10000000 : 100000); ++n) {
-      // Anywhere, or nearly half way between two entries.
+      // Random colours, and colours nearly halfway between two entries.
       float at[3];
       const Rgb8 a = palette.entries[random() % palette.entries.size()],
                  b = palette.entries[random() % palette.entries.size()];
@@ -101,13 +100,15 @@ TEST(Functions, PaletteDistances) {
       };
       at[0] = mixed(a.r, b.r), at[1] = mixed(a.g, b.g), at[2] = mixed(a.b, b.b);
       const auto squared = [&](const Rgb8& e) {
-        const long double r = at[0] - e.r / 255.0L, g = at[1] - e.g / 255.0L, bl = at[2] - e.b / 255.0L;
+        const long double r = at[0] - e.r / 255.0L;
+        const long double g = at[1] - e.g / 255.0L;
+        const long double bl = at[2] - e.b / 255.0L;
         return r * r + g * g + bl * bl;
       };
       long double least = 9;
       for (const Rgb8& e : palette.entries) least = std::min(least, squared(e));
-      const long double found = squared(palette.entries[search.nearest(at[0], at[1], at[2])]),
-                        root = std::sqrt(found);
+      const long double found = squared(palette.entries[search.nearest(at[0], at[1], at[2])]);
+      const long double root = std::sqrt(found);
       update_worst(worst,
                    (found - least) / (2 * 0x1p-24L * (2 * std::sqrt(3.0L) * root + 5 * found) + 1e-30L));
     }

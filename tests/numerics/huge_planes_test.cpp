@@ -1,5 +1,6 @@
-// Planes beside whose vertices their distance from the eye is nothing: a double does not hold 10^30 and 1 at
-// once, a picture does. The oracle is the plane's own few digits, in whole numbers.
+// Planes whose distance from the eye vanishes next to the coordinates of their vertices: a double cannot hold
+// 10^30 and 1 in one sum. The oracle uses the plane's own coefficients, which have few digits, in whole
+// numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,8 +21,7 @@ namespace {
 
 constexpr int kSide = 64;
 
-/// Around the origin of (u, v), each corner's u 2^size and up to half as much more, its v 2^size_v; as
-/// floats.
+/// Corners around the origin of (u, v): each u is 2^size times 1 to 1.5, each v 2^size_v; as floats.
 struct Corners {
   std::array<std::array<float, 2>, 4> at;
   Corners(MeshRandom& random, int size, int size_v) {
@@ -35,7 +35,7 @@ struct Corners {
   }
 };
 
-// Carries (u, v, 0, 1) to the plane's point, in clip space of a size of its own.
+// Maps (u, v, 0, 1) to the plane's point in clip space, scaled by 2^exponent.
 Matrix matrix_of(const ClipPlane& plane, int exponent) {
   Matrix m;
   const std::int64_t ClipPoint::*const rows[] = {&ClipPoint::x, &ClipPoint::y, &ClipPoint::z, &ClipPoint::w};
@@ -48,8 +48,8 @@ Matrix matrix_of(const ClipPlane& plane, int exponent) {
   return m;
 }
 
-// The largest number in the oracle's; beyond it there is but the horizon.
-constexpr int kMostInOracle = 38;
+// Largest exponent in the oracle; beyond it only the horizon is visible.
+constexpr int kMaxOracleExponent = 38;
 
 void expect_planes(const std::string& what, bool reversed) {
   expect_coverage(
@@ -58,24 +58,25 @@ void expect_planes(const std::string& what, bool reversed) {
         for (int n = 0; n < (is_tessera && long_tests() ? 100000 : 3000); ++n) {
           MeshRandom random(n);
           ClipPlane plane = random_plane(random);
-          // Some along the near plane: what is far away is as near to it as what is seen.
+          // Some planes run along the near plane, so that distant points are as close to it as the visible
+          // ones.
           const int to_near = reversed ? 1 : -1;
           if (n % 3 == 0) plane.to_u.z = to_near * plane.to_u.w;
           if (n % 6 == 0) plane.to_v.z = to_near * plane.to_v.w;
           const SquareViewport view{0, 0, kSide};
           const std::optional<VisiblePlane> seen = plane.seen(view);
           if (!seen) continue;
-          const int size = random.between(10, 110),
-                    exponent =
-                        is_tessera ? random.one_of({0, 0, random.between(-800, 1000 - size), 970 - size}) : 0;
+          const int size = random.between(10, 110);
+          const int exponent =
+              is_tessera ? random.one_of({0, 0, random.between(-800, 1000 - size), 970 - size}) : 0;
           const int size_v = random.coin() ? size : random.between(3, size);
           const Corners corners(random, size, size_v);
           CountedMesh mesh;
           for (const auto& [u, v] : corners.at) mesh.add_vertex(double{u}, double{v}, 0, 1);
           const bool is_fan = random.coin();
           if (is_fan) {
-            // Around a vertex anywhere, where two edges may be nearer to each other, in the window, than
-            // snapping moves them.
+            // Around a random vertex; there two edges may be closer to each other in the window than snapping
+            // moves them.
             const int middle = random.between(-4, size - 1);
             const double u = std::ldexp(random.unit() - 0.5, middle),
                          v = std::ldexp(random.unit() - 0.5, std::min(middle, size_v));
@@ -93,21 +94,22 @@ void expect_planes(const std::string& what, bool reversed) {
                 "plane " + std::to_string(n) + " of 2^" + std::to_string(size) + " times 2^" +
                     std::to_string(exponent),
                 {.pixels = covers_of(
-                     plane.region(*seen, std::int64_t{1} << std::min(size_v, kMostInOracle), reversed), kSide,
-                     kSide, view),
+                     plane.region(*seen, std::int64_t{1} << std::min(size_v, kMaxOracleExponent), reversed),
+                     kSide, kSide, view),
                  .overlaps = [&] { return snapping_folds(mesh, view, reversed, *draw.transform); },
                  .folds_along_cuts = true});
         }
       });
 }
 
-TEST(HugePlanes, AreSeenWhereTheirNumbersSay) {
+TEST(HugePlanes, CoverThePixelsOfTheExactPlane) {
   expect_planes("planes of 2^10 to 2^110, offsets of one digit", false);
   expect_planes("planes of 2^10 to 2^110, offsets of one digit, reversed depth", true);
 }
 
-// What is seen is so near to the origin of (u, v), beside the vertices, that it has the colour there.
-TEST(HugePlanes, HaveTheColorsOfWhatIsSeen) {
+// The visible part is so close to the origin of (u, v), relative to the vertices, that it has the colour of
+// the origin.
+TEST(HugePlanes, HaveTheColorAtTheOrigin) {
   Renderer renderer({.threads = 1});
   long double worst = 0;
   std::size_t seen_pixels = 0;
@@ -122,7 +124,7 @@ TEST(HugePlanes, HaveTheColorsOfWhatIsSeen) {
     std::vector<float> positions, colors;
     std::vector<std::uint32_t> indices;
     for (std::uint32_t k = 0; k < 3; ++k) {
-      // A triangle that holds the origin: two corners, and one across from their middle.
+      // A triangle that contains the origin: two corners, and a third opposite to their midpoint.
       const float u = k < 2 ? corners.at[k][0] : -(corners.at[0][0] + corners.at[1][0]) / 2,
                   v = k < 2 ? corners.at[k][1] : -(corners.at[0][1] + corners.at[1][1]) / 2;
       positions.insert(positions.end(), {u, v, 0, 1});
@@ -137,10 +139,10 @@ TEST(HugePlanes, HaveTheColorsOfWhatIsSeen) {
     state.transform = matrix_of(plane, 0);
     frame.draw({.positions = positions, .position_components = 4, .colors = colors}, state);
     renderer.finish(frame);
-    // The last vertex weighs as much as the other two, whose weights are as their middle is the mean.
+    // At the origin the weights of the vertices are 1/4, 1/4 and 1/2.
     const std::vector<std::uint32_t> words = packed_colors(buffer);
-    const ExactRegion region =
-        plane.region(*seen, 1 << 12);  // of a far larger triangle, what is seen without the horizon
+    // Visible part of a far larger triangle without the horizon.
+    const ExactRegion region = plane.region(*seen, 1 << 12);
     for (std::size_t i = 0; i < words.size(); ++i) {
       const auto [x, y] = center_of(static_cast<int>(i % kSide), static_cast<int>(i / kSide), kSide, view);
       if (region.side(x, y) != ExactRegion::Side::in) continue;
@@ -152,12 +154,12 @@ TEST(HugePlanes, HaveTheColorsOfWhatIsSeen) {
     }
   }
   EXPECT_GT(seen_pixels, 100000u);
-  // Half a level of storing; and 2^-28 of the vertices' differences, as the origin is that near.
+  // Half a level of storing, and 2^-28 of the vertices' differences for the distance from the origin.
   expect_within("colours of triangles of 2^40 to 2^110", worst, 0.501L, "levels of 255");
 }
 
-// An outline is as a smaller one is, whose far edges are the horizon, too.
-TEST(HugePlanes, HaveOutlinesOfAnySize) {
+// An outline matches that of a smaller plane whose far edges are at the horizon, too.
+TEST(HugePlanes, OutlinesDoNotDependOnTheSize) {
   Renderer renderer({.threads = 1});
   const auto outline = [&](double roll, double yaw, int size) {
     FrameBuffer buffer({.width = kSide, .height = kSide, .depth = DepthFormat::none, .stencil_bits = 0});
@@ -179,8 +181,9 @@ TEST(HugePlanes, HaveOutlinesOfAnySize) {
   for (const double roll : {0.0, 30.0, -71.0})
     for (const double yaw : {0.0, 20.0, 45.0}) {
       const std::vector<std::uint32_t> small = outline(roll, yaw, 20);
+      // The horizon and the near edge.
       EXPECT_GT(std::count_if(small.begin(), small.end(), [](std::uint32_t word) { return word != 0; }),
-                3 * kSide / 2);  // the horizon and the near edge
+                3 * kSide / 2);
       for (const int size : {40, 50, 60, 80, 100})
         EXPECT_EQ(outline(roll, yaw, size), small) << "roll " << roll << ", yaw " << yaw << ", 2^" << size;
     }

@@ -1,5 +1,5 @@
-// Vertices as far away as floats and doubles go: what is seen of their triangles and lines is still what it
-// should be, and what cannot be exact stays in the window.
+// Vertices at the limits of float and double: the visible part of their triangles and lines is still right,
+// and inexact results stay within the window.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ MeshData mesh_of(Primitive primitive, std::vector<float> positions) {
   return mesh;
 }
 
-// One half of the window, behind an edge through its centre: below, above, left or right.
+// Half of the window, behind an edge through its centre: below, above, left or right.
 TEST(HugePositions, TrianglesCoverTheirHalfOfTheWindow) {
   for (const InstructionSet set : available_instruction_sets())
     for (const int samples : {1, 4})
@@ -61,7 +61,7 @@ TEST(HugePositions, TrianglesCoverTheirHalfOfTheWindow) {
             }
 }
 
-// The same halves, counted, for Mesa's row.
+// The same halves, counted, for Mesa's figure.
 TEST(HugePositions, NoPixelIsInTheWrongHalf) {
   expect_figure("pixels wrong behind an edge with ends at 10^6 to 3 10^38", 0, "pixels",
                 [](const MakeRenderer& make, bool) {
@@ -95,7 +95,7 @@ TEST(HugePositions, TrianglesAroundTheWindowCoverAllOfIt) {
       }
 }
 
-TEST(HugePositions, LinesAreDrawnFromSideToSide) {
+TEST(HugePositions, LinesCrossTheWholeWindow) {
   for (const float far : {1e6f, 1e15f, 1e17f, 1e30f, 3e38f})
     for (const bool standing : {false, true})
       for (const float end : {far, 2.0f}) {
@@ -112,9 +112,9 @@ TEST(HugePositions, LinesAreDrawnFromSideToSide) {
       }
 }
 
-// Clip coordinates mean the same whatever they are multiplied by. Depth and coverage do not look at 1 / w,
-// which is a float.
-TEST(HugePositions, APowerOfTwoInTheProjectionMovesNothing) {
+// Clip coordinates are homogeneous: scaling them changes nothing. Depth and coverage do not use the float
+// 1/w.
+TEST(HugePositions, ScalingTheProjectionByAPowerOfTwoChangesNothing) {
   Random random(6);
   MeshData mesh;
   for (int i = 0; i < 150; ++i)

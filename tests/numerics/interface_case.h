@@ -1,5 +1,5 @@
-// All that can be said of a frame, as one object whose fields may be anything; and what becomes of it: an
-// error at one of its calls, or a picture.
+// Everything that can be specified for a frame, as one object whose fields may hold any value; and the
+// outcome: an error from one of the calls, or a picture.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,7 @@ struct InterfaceCase {
     image.pixels = pixels.pixels = bitmap.bits = texels.data();
     Random random(22);
     for (int i = 0; i < 30;
-         ++i) {  // as triangles, lines or points; some beyond the near plane and the window
+         ++i) {  // Triangles, lines or points; some reach beyond the near plane and the window.
       for (int c = 0; c < 3; ++c)
         data.positions.push_back(random.between(-2, 2)), data.normals.push_back(random.between(-1, 1));
       for (int c = 0; c < 4; ++c) data.colors.push_back(random.between(0, 1));
@@ -67,15 +67,19 @@ struct InterfaceCase {
   }
 };
 
-/// What became of it. Words of every buffer; where something may have been drawn, from the values themselves.
+/// Result of a case: an error, or the stored values of every buffer.
 struct Outcome {
-  std::string refused_by, message;  ///< the call, and what it said
+  /// The rejecting call and its error message.
+  std::string refused_by;
+  std::string message;
   Fingerprint fingerprint;
-  std::vector<std::uint32_t> color, depth, shown;
+  std::vector<std::uint32_t> color;
+  std::vector<std::uint32_t> depth;
+  std::vector<std::uint32_t> shown;
   FrameStats stats;
 };
 
-/// Every call, in order, until one throws Error.
+/// Makes every call, in order, until one throws Error.
 inline Outcome run(InterfaceCase& w, InstructionSet set) {
   Outcome outcome;
   const char* call = "Renderer";
@@ -128,14 +132,15 @@ inline Outcome run(InterfaceCase& w, InstructionSet set) {
   return outcome;
 }
 
-/// Whether a pixel, counted from the lower left, is in a rectangle of any numbers.
+/// Whether a pixel, counted from the lower left, is inside a rectangle of arbitrary values.
 inline bool contains(const std::optional<Rect>& rect, int x, int y) {
   if (!rect) return true;
-  const std::int64_t right = std::int64_t{rect->x} + rect->width, top = std::int64_t{rect->y} + rect->height;
+  const std::int64_t right = std::int64_t{rect->x} + rect->width;
+  const std::int64_t top = std::int64_t{rect->y} + rect->height;
   return x >= rect->x && x < right && y >= rect->y && y < top;
 }
 
-/// Each shows other fields: shadings, primitives, formats, tests, samples.
+/// Each case covers other fields: shadings, primitives, formats, tests, samples.
 inline std::vector<InterfaceCase> interface_cases() {
   std::vector<InterfaceCase> all(7);
   all[0].name = "gouraud";

@@ -1,5 +1,5 @@
-// What is the same at all vertices is the same at all pixels, exactly: whole and clipped triangles, however
-// they are shaded, lit, textured and stored.
+// An attribute that is equal at all vertices is exactly that value at every pixel: whole and clipped
+// triangles, however they are shaded, lit, textured and stored.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kSide = 128;
 
-// Whole ones, and ones that the near plane, the far plane or the guard band cuts; w apart by up to 10^6.
+// Whole triangles, and triangles cut by the near plane, the far plane or the guard band; w varies by up to
+// 10^6.
 std::vector<float> random_positions(Rng& rng) {
   std::vector<float> positions;
   const bool is_whole = rng.maybe();
@@ -40,17 +41,17 @@ std::vector<float> random_positions(Rng& rng) {
 
 float random_constant(Rng& rng) {
   const float c = static_cast<float>(rng.unit());
-  return rng.maybe()
-             ? c
-             : (std::floor(255 * c) + 0.5f) / 255;  // on the border between two levels, or a hair beside it
+  // On the border between two levels, or very close to it.
+  return rng.maybe() ? c : (std::floor(255 * c) + 0.5f) / 255;
 }
 
-TEST(InterpolationConstant, ColorsAreWhatTheVerticesHave) {
+TEST(InterpolationConstant, ColorsEqualTheVertexColor) {
   expect_figure("colours, the same at all vertices: off by", 0, "levels",
                 [](const MakeRenderer& make, bool is_tessera) {
                   const auto renderer = make({.width = kSide, .height = kSide});
                   Rng rng(51);
-                  long double worst = 0, seen = 0;
+                  long double worst = 0;
+                  long double seen = 0;
                   for (int n = 0; n < (is_tessera && long_tests() ? 50000 : 1000); ++n) {
                     CaseDraw draw{.positions = random_positions(rng)};
                     const float c[3] = {random_constant(rng), random_constant(rng), 1};
@@ -71,42 +72,49 @@ TEST(InterpolationConstant, ColorsAreWhatTheVerticesHave) {
                 });
 }
 
-// From pixel centre to pixel centre, so that edges go through centres, where the vertex that weighs most has
-// no weight: however much that is, a pixel is white.
-TEST(InterpolationConstant, WhateverTheRatiosOfW) {
-  expect_figure(
-      "white triangles, w apart by up to 2^170: pixels that are not white", 0, "pixels",
-      [](const MakeRenderer& make, bool) {
-        const auto renderer = make({.width = kSide, .height = kSide});
-        Rng rng(57);
-        long double wrong = 0, seen = 0;
-        constexpr double kRatios[] = {20, 40, 63, 64, 65, 80, 120, 135, 170};
-        const auto centre = [&] { return static_cast<std::int64_t>(kSide * rng.unit()) * kGrid + kGrid / 2; };
-        for (int n = 0; n < 400; ++n) {
-          const double ratio = rng.one_of(kRatios);
-          const int heavy = static_cast<int>(3 * rng.unit()), second = rng.maybe() ? (heavy + 1) % 3 : heavy;
-          CaseDraw with_ratio, without;
-          for (int k = 0; k < 3; ++k) {
-            const double x = clip_x(centre(), kSide), y = clip_y(centre(), kSide),
-                         w = std::exp2(k == heavy || k == second ? -60 : ratio - 60);
-            for (const double c : {w * x, w * y, 0.0, w})
-              with_ratio.positions.push_back(static_cast<float>(c));
-            for (const double c : {x, y, 0.0, 1.0}) without.positions.push_back(static_cast<float>(c));
-            for (CaseDraw* draw : {&with_ratio, &without})
-              draw->colors.insert(draw->colors.end(), {1, 1, 1, 1});
-          }
-          const auto expected = renderer->draw({without}).colors, found = renderer->draw({with_ratio}).colors;
-          for (std::size_t i = 0; i < expected.size(); ++i) {
-            seen += expected[i][0];
-            wrong += expected[i] == found[i] ? 0 : 1;
-          }
-        }
-        EXPECT_GT(seen, 1e5);
-        return wrong;
-      });
+// Edges run through pixel centres, where the vertex with the largest 1/w may have weight 0. The pixel is
+// white for any ratio.
+TEST(InterpolationConstant, WhiteStaysWhiteForAnyRatioOfW) {
+  expect_figure("white triangles, w apart by up to 2^170: pixels that are not white", 0, "pixels",
+                [](const MakeRenderer& make, bool) {
+                  const auto renderer = make({.width = kSide, .height = kSide});
+                  Rng rng(57);
+                  long double wrong = 0;
+                  long double seen = 0;
+                  constexpr double kRatios[] = {20, 40, 63, 64, 65, 80, 120, 135, 170};
+                  const auto centre = [&] {
+                    return static_cast<std::int64_t>(kSide * rng.unit()) * kGrid + kGrid / 2;
+                  };
+                  for (int n = 0; n < 400; ++n) {
+                    const double ratio = rng.one_of(kRatios);
+                    const int heavy = static_cast<int>(3 * rng.unit());
+                    const int second = rng.maybe() ? (heavy + 1) % 3 : heavy;
+                    CaseDraw with_ratio;
+                    CaseDraw without;
+                    for (int k = 0; k < 3; ++k) {
+                      const double x = clip_x(centre(), kSide);
+                      const double y = clip_y(centre(), kSide);
+                      const double w = std::exp2(k == heavy || k == second ? -60 : ratio - 60);
+                      for (const double c : {w * x, w * y, 0.0, w})
+                        with_ratio.positions.push_back(static_cast<float>(c));
+                      for (const double c : {x, y, 0.0, 1.0})
+                        without.positions.push_back(static_cast<float>(c));
+                      for (CaseDraw* draw : {&with_ratio, &without})
+                        draw->colors.insert(draw->colors.end(), {1, 1, 1, 1});
+                    }
+                    const auto expected = renderer->draw({without}).colors;
+                    const auto found = renderer->draw({with_ratio}).colors;
+                    for (std::size_t i = 0; i < expected.size(); ++i) {
+                      seen += expected[i][0];
+                      wrong += expected[i] == found[i] ? 0 : 1;
+                    }
+                  }
+                  EXPECT_GT(seen, 1e5);
+                  return wrong;
+                });
 }
 
-// Between two texels, where the least change would show.
+// Between two texels, where the smallest change would show.
 TEST(InterpolationConstant, TextureCoordinatesGiveOneColor) {
   for (const bool nearest : {false, true})
     expect_figure(std::string("texture coordinates, the same at all vertices") +
@@ -137,11 +145,11 @@ TEST(InterpolationConstant, TextureCoordinatesGiveOneColor) {
                   });
 }
 
-struct Way {
+struct ShadingPath {
   const char* name;
   void (*change)(DrawState& state, const Texture& texture);
 };
-constexpr Way kWays[] = {
+constexpr ShadingPath kShadingPaths[] = {
     {"plain", [](DrawState&, const Texture&) {}},
     {"textured", [](DrawState& s, const Texture& t) { s.texture = &t; }},
     {"blended", [](DrawState& s, const Texture&) { s.blend = BlendState{}; }},
@@ -153,10 +161,10 @@ constexpr Way kWays[] = {
     {"two lights' colours", [](DrawState& s, const Texture&) { s.color_material = ColorMaterial::diffuse; }},
 };
 
-// By every way of shading, on each instruction set, in one and several samples: one word wherever a triangle
-// covers all of a pixel. Lights far away and one normal: lit points are alike, too. The alpha test passes
-// only what is equal to the vertices' alpha.
-TEST(InterpolationConstant, EveryWayOfShadingGivesOneColor) {
+// On every pixel path, on each instruction set, with one and several samples: one packed color wherever a
+// triangle covers the whole pixel. Distant lights and a single normal make lit points equal, too. The alpha
+// test passes only the exact vertex alpha.
+TEST(InterpolationConstant, EveryPixelPathGivesOneColor) {
   const std::uint8_t texels[4] = {32, 255, 255, 32};
   const Texture texture({.pixels = texels, .width = 2, .height = 2, .channels = 1});
   Rng rng(53);
@@ -166,14 +174,19 @@ TEST(InterpolationConstant, EveryWayOfShadingGivesOneColor) {
       for (const int samples : {1, 4}) {
         Renderer renderer({.threads = 1, .instruction_set = set, .debug = {.defer_shading = defers}});
         FrameBuffer buffer({.width = kSide, .height = kSide, .samples = samples});
-        std::vector<std::uint32_t> words(kSide * kSide), covered(kSide * kSide);
+        std::vector<std::uint32_t> words(kSide * kSide);
+        std::vector<std::uint32_t> covered(kSide * kSide);
         for (int n = 0; n < (long_tests() ? 500 : 15); ++n) {
           const std::vector<float> positions = random_positions(rng);
-          std::vector<float> colors, normals, texcoords;
-          const float r = random_constant(rng), g = random_constant(rng),
-                      s = rng.maybe() ? 0.5f : random_constant(rng);
-          const float x = static_cast<float>(rng.unit() - 0.5), y = static_cast<float>(rng.unit() - 0.5),
-                      z = static_cast<float>(rng.unit());
+          std::vector<float> colors;
+          std::vector<float> normals;
+          std::vector<float> texcoords;
+          const float r = random_constant(rng);
+          const float g = random_constant(rng);
+          const float s = rng.maybe() ? 0.5f : random_constant(rng);
+          const float x = static_cast<float>(rng.unit() - 0.5);
+          const float y = static_cast<float>(rng.unit() - 0.5);
+          const float z = static_cast<float>(rng.unit());
           for (int k = 0; k < 3; ++k) {
             colors.insert(colors.end(), {r, g, 0.9f, 0.7f});
             normals.insert(normals.end(), {x, y, z});
@@ -204,7 +217,7 @@ TEST(InterpolationConstant, EveryWayOfShadingGivesOneColor) {
           buffer.read_color_words(covered);
           for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
             for (const bool lit : {false, true})
-              for (const Way& way : kWays) {
+              for (const ShadingPath& path : kShadingPaths) {
                 DrawState state;
                 state.shading = shading;
                 state.lighting = lit;
@@ -212,14 +225,14 @@ TEST(InterpolationConstant, EveryWayOfShadingGivesOneColor) {
                 state.material.emission = {0, 0, 0.5f, 1};  // never black
                 state.material.specular = {0.3f, 0.3f, 0.3f, 1};
                 state.material.shininess = 10;
-                way.change(state, texture);
+                path.change(state, texture);
                 draw(state, words);
                 std::optional<std::uint32_t> word;
                 for (std::size_t i = 0; i < words.size(); ++i) {
                   if (covered[i] != 0xffffff) continue;
                   if (!word) word = words[i];
                   ASSERT_EQ(words[i], *word)
-                      << way.name << (lit ? ", lit, " : ", ") << static_cast<int>(shading) << ", "
+                      << path.name << (lit ? ", lit, " : ", ") << static_cast<int>(shading) << ", "
                       << name(set) << ", " << samples << " samples, pixel " << i;
                   ASSERT_NE(words[i], 0u);
                   ++seen;

@@ -1,13 +1,13 @@
-// Interpolated values before anything is rounded to levels: their error, and how far they leave the range of
-// the three vertices; from the kernels' barycentric coordinates on each instruction set. The last step is
-// that of the twin, whose bits the kernels have (Interpolate in tests/shading).
+// Interpolated values before rounding to levels: their error, and how far they leave the range of the three
+// vertices; from the kernels' barycentric coordinates on each instruction set. The last step uses the scalar
+// twin, whose bits the kernels match (Interpolate in tests/shading).
 //
-// u = 2^-24. A weight is a product of positive factors, each rounded once. Where vertex 0 has none (on the
-// opposite edge), b1 + b2 is off by 4 u at most: two sums, quotient, product, or, without perspective,
+// u = 2^-24. A weight is a product of positive factors, each rounded once. Where vertex 0 has no weight (on
+// the opposite edge), b1 + b2 is off by at most 4 u: two sums, quotient, product; or, without perspective,
 // 1/area, its product, the edge and the multiply-add. So first + b1 (second - first) + b2 (third - first)
-// leaves the range by 4 u of the larger difference, and by one u each of it and of the two sums' results:
-// with M the largest of the three, of one sign, 7 u M, as differences are no larger than M; of both signs,
-// differences are at most 2 M: 12 u M.
+// leaves the range by at most 4 u of the larger difference, plus one u each of that difference and of the
+// results of the two sums. Let M be the largest magnitude of the three. With equal signs, differences are at
+// most M: 7 u M in total. With mixed signs, differences are at most 2 M: 12 u M.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,16 +31,18 @@ constexpr long double kUnit = 0x1p-24L;
 
 using Corners = std::array<float, 3>;
 
-// Steep and flat ones; two corners alike: constant along an edge.
+// Steep and flat gradients, and two equal corners (constant along an edge).
 Corners random_corners(Rng& rng, bool one_sign) {
   Corners a{};
   const int kind = static_cast<int>(rng.between(0, 3));
   for (float& f : a) {
     const double part = rng.unit();
-    f = static_cast<float>(kind == 0   ? part
-                           : kind == 1 ? 1 + std::floor(8 * part) * 0x1p-23
-                           : kind == 2 ? std::exp(20 * part - 10)
-                                       : 255 * part);
+    switch (kind) {
+      case 0: f = static_cast<float>(part); break;
+      case 1: f = static_cast<float>(1 + std::floor(8 * part) * 0x1p-23); break;
+      case 2: f = static_cast<float>(std::exp(20 * part - 10)); break;
+      default: f = static_cast<float>(255 * part); break;
+    }
     if (!one_sign && rng.maybe()) f = -f;
   }
   if (rng.maybe())
@@ -48,13 +50,13 @@ Corners random_corners(Rng& rng, bool one_sign) {
   return a;
 }
 
-/// 1/w: the largest of a triangle, and how many octaves below it the others may be.
+/// 1/w of the vertices: the largest, and the number of octaves that the others may be below it.
 struct Reciprocals {
   float largest = 1;
   int octaves = 20;
 };
 
-// Calls pixel(triangle, 1/w, barycentric, x, y) for all pixels within, in the window's far corner.
+// Calls pixel(triangle, 1/w, barycentric, x, y) for all covered pixels in the window's far corner.
 template <class Pixel>
 void for_each_pixel(std::uint32_t seed, const Pixel& pixel, int count = long_tests() ? 200000 : 8000,
                     const Reciprocals& reciprocals = {}) {
@@ -62,8 +64,9 @@ void for_each_pixel(std::uint32_t seed, const Pixel& pixel, int count = long_tes
   std::vector<float> b1(kTile * kTile), b2(kTile * kTile);
   for (int n = 0; n < count; ++n) {
     const bool is_wide = n % 4 == 0;
-    const int width = is_wide ? 16384 : kTile, tile_x = 16384 - kTile,
-              octaves = n % 3 == 0 ? 0 : reciprocals.octaves;
+    const int width = is_wide ? 16384 : kTile;
+    const int tile_x = 16384 - kTile;
+    const int octaves = n % 3 == 0 ? 0 : reciprocals.octaves;
     WindowTriangle t = random_triangle(rng, rng.one_of(kWindowShapes), width, kTile);
     WindowVertex v[3];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -88,8 +91,9 @@ void for_each_pixel(std::uint32_t seed, const Pixel& pixel, int count = long_tes
 
 float largest_of(const Corners& a) { return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])}); }
 
-TEST(InterpolationRange, IsLeftByAFewRoundingsAtMost) {
-  long double worst[2] = {0, 0}, count = 0;
+TEST(InterpolationRange, IsExceededByAFewRoundingsAtMost) {
+  long double worst[2] = {0, 0};
+  long double count = 0;
   for_each_pixel(41, [&](Rng& rng, const WindowTriangle&, const WindowVertex(&)[3],
                          const BarycentricReference& at, const GridPoint&) {
     for (const bool one_sign : {false, true}) {
@@ -105,26 +109,28 @@ TEST(InterpolationRange, IsLeftByAFewRoundingsAtMost) {
   expect_within("interpolated, of both signs, beyond the range", worst[0], 12, "2^-24 of the largest");
 }
 
-/// Raises to how far weights are off, in u of themselves. Linear in the window where all 1/w count as the
-/// same.
-void keep_worst_weight(long double& worst, const WindowTriangle& t, const std::array<float, 3>& rw,
-                       const BarycentricReference& at, const GridPoint& p) {
-  long double weights[3], sum = 0;
+/// Raises `worst` to the largest relative error of the weights, in u. If all `rw` are equal, the weights are
+/// linear in the window.
+void update_worst_weight(long double& worst, const WindowTriangle& t, const std::array<float, 3>& rw,
+                         const BarycentricReference& at, const GridPoint& p) {
+  long double weights[3];
+  long double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) sum += weights[k] = static_cast<long double>(t.edge(k, p)) * rw[k];
   for (const auto& [found, exact] : {std::pair{at.b1, weights[1] / sum}, {at.b2, weights[2] / sum}})
     update_worst(worst, exact == 0 ? std::abs(found) / kUnit : std::abs(found - exact) / (kUnit * exact));
 }
 
-// Of what is linear in the window: 1/area, its product with what is left of an edge, and the multiply-add of
-// the edge. Under perspective 1/area is the same in all weights, and each has a ratio of 1/w besides and that
-// ratio's product: four apart from it, so that two weights are eight apart; two sums, quotient, product. None
-// is a difference, so zero is exactly that.
+// Roundings without perspective: 1/area, its product with the edge's fraction, and the multiply-add of the
+// edge. Under perspective 1/area is common to all weights; each weight also has a ratio of 1/w and the
+// product with it. That is four roundings per weight, eight between two weights; then two sums, a quotient
+// and a product. No step is a difference, so a zero is exact.
 TEST(InterpolationRange, WeightsAreWithinTheirRoundings) {
-  long double worst[2] = {0, 0}, count[2] = {0, 0};
+  long double worst[2] = {0, 0};
+  long double count[2] = {0, 0};
   for_each_pixel(44, [&](Rng&, const WindowTriangle& t, const WindowVertex(&v)[3],
                          const BarycentricReference& at, const GridPoint& p) {
     const bool is_affine = v[0].rw == v[1].rw && v[1].rw == v[2].rw;
-    keep_worst_weight(worst[is_affine], t, {v[0].rw, v[1].rw, v[2].rw}, at, p);
+    update_worst_weight(worst[is_affine], t, {v[0].rw, v[1].rw, v[2].rw}, at, p);
     ++count[is_affine];
   });
   for (const long double seen : count) EXPECT_GT(seen, 50000);
@@ -132,9 +138,10 @@ TEST(InterpolationRange, WeightsAreWithinTheirRoundings) {
   expect_within("barycentric coordinates, w apart by up to 10^6", worst[0], 12, "2^-24 of themselves");
 }
 
-// Ratios of what is beyond would not be floats.
-TEST(InterpolationRange, PerspectiveIsThatOfReciprocalsUpTo2To120) {
-  constexpr float kLow = 0x1p-120f, kHigh = 0x1p120f;
+// Beyond that the ratios of 1/w would overflow.
+TEST(InterpolationRange, PerspectiveAppliesToReciprocalsUpTo2To120) {
+  constexpr float kLow = 0x1p-120f;
+  constexpr float kHigh = 0x1p120f;
   struct Case {
     float largest;
     bool has_perspective;
@@ -149,14 +156,15 @@ TEST(InterpolationRange, PerspectiveIsThatOfReciprocalsUpTo2To120) {
                         {kHigh, false},
                         {std::nextafter(kHigh, HUGE_VALF), false},
                         {0x1p121f, false}};
-  long double worst[2] = {0, 0}, count[2] = {0, 0};
+  long double worst[2] = {0, 0};
+  long double count[2] = {0, 0};
   for (const auto& [largest, has_perspective] : cases)
     for_each_pixel(
         45,
         [&, perspective = has_perspective](Rng&, const WindowTriangle& t, const WindowVertex(&v)[3],
                                            const BarycentricReference& at, const GridPoint& p) {
           if (v[0].rw == v[1].rw && v[1].rw == v[2].rw) return;
-          keep_worst_weight(
+          update_worst_weight(
               worst[perspective], t,
               perspective ? std::array{v[0].rw, v[1].rw, v[2].rw} : std::array{1.0f, 1.0f, 1.0f}, at, p);
           ++count[perspective];
@@ -168,14 +176,16 @@ TEST(InterpolationRange, PerspectiveIsThatOfReciprocalsUpTo2To120) {
   expect_within("barycentric coordinates, 1/w just within", worst[1], 12, "2^-24 of themselves");
 }
 
-// Barycentric coordinates are within 9 u of perspective, and count by their differences, which are rounded
-// themselves; each sum once more by what it comes to, and that is no more than the largest.
+// Barycentric coordinates are within 9 u of exact perspective and are multiplied by the differences, which
+// are rounded themselves. Each sum rounds once more, relative to its result, which is at most the largest
+// value.
 TEST(InterpolationRange, ErrorsAreWithinTheirRoundings) {
   long double worst = 0;
   for_each_pixel(42, [&](Rng& rng, const WindowTriangle& t, const WindowVertex(&v)[3],
                          const BarycentricReference& at, const GridPoint& p) {
     const Corners a = random_corners(rng, false);
-    long double sum = 0, weights = 0;
+    long double sum = 0;
+    long double weights = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const long double weight = static_cast<long double>(t.edge(k, p)) * v[k].rw;
       sum += weight * a[k];

@@ -1,5 +1,5 @@
-// What is interpolated within triangles, as it is stored: against perspective in long double through the
-// snapped vertices, with steep gradients, slivers, w apart by 10^6 and windows of 16,384 pixels.
+// Interpolated values as stored, against perspective in long double through the snapped vertices: steep
+// gradients, slivers, w ratios of 10^6, windows of 16,384 pixels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,15 +20,17 @@ namespace {
 struct Colored {
   WindowTriangle triangle;
   std::array<double, 3> w;
-  std::array<std::array<float, 2>, 3> color;  // red and green; blue tells which triangle a pixel shows
+  std::array<std::array<float, 2>, 3> color;  // red and green; blue identifies the triangle of a pixel
 };
 
 struct Window {
-  int width, height, frames;
+  int width;
+  int height;
+  int frames;
 };
 constexpr Window kWindows[] = {{256, 256, 12}, {16384, 16, 2}, {16, 16384, 2}};
 
-// With two bits each, products with window coordinates are exact floats.
+// Two bits each, so that products with window coordinates are exact floats.
 double random_w(Rng& rng, int octaves) {
   return std::ldexp(rng.maybe() ? 1 : 1.5, static_cast<int>(rng.between(0, octaves)));
 }
@@ -45,7 +47,16 @@ WindowTriangle somewhere(Rng& rng, WindowShape shape, const Window& window) {
 
 using Colors = std::function<float(Rng&)>;
 
-// Calls pixel(triangle, x, y, colour) wherever one is seen.
+std::size_t triangles_per_frame(WindowShape shape) {
+  switch (shape) {
+    case WindowShape::any: return 8;
+    case WindowShape::centers:
+    case WindowShape::sliver: return 50;
+    default: return 254;
+  }
+}
+
+// Calls pixel(triangle, x, y, colour) for each visible pixel.
 template <class Pixel>
 void for_each_pixel(const MakeRenderer& make, WindowShape shape, int octaves, int rounds,
                     const Colors& colors, const Pixel& pixel) {
@@ -53,9 +64,7 @@ void for_each_pixel(const MakeRenderer& make, WindowShape shape, int octaves, in
   std::size_t seen = 0;
   for (const Window& window : kWindows) {
     const auto renderer = make({.width = window.width, .height = window.height});
-    const std::size_t count = shape == WindowShape::any                                       ? 8
-                              : shape == WindowShape::centers || shape == WindowShape::sliver ? 50
-                                                                                              : 254;
+    const std::size_t count = triangles_per_frame(shape);
     for (int round = 0; round < rounds * window.frames; ++round) {
       std::vector<Colored> all;
       CaseDraw draw;
@@ -95,7 +104,7 @@ long double level_of(float stored) { return std::floor(static_cast<long double>(
 const std::string kNames[] = {"small", "large", "on centres", "slivers", "needles"};
 int rounds_of(bool is_tessera) { return is_tessera && long_tests() ? 40 : 1; }
 
-TEST(Interpolation, OfColorsIsHalfALevelFromPerspective) {
+TEST(Interpolation, ColorsAreWithinHalfALevelOfPerspective) {
   for (const int octaves : {0, 20})
     for (const WindowShape shape : kWindowShapes)
       expect_figure(
@@ -108,7 +117,8 @@ TEST(Interpolation, OfColorsIsHalfALevelFromPerspective) {
                 [](Rng& rng) { return static_cast<float>(rng.unit()); },
                 [&](const Colored& t, int x, int y, const std::array<float, 3>& color) {
                   for (std::size_t c = 0; c < 2; ++c) {
-                    long double sum = 0, weights = 0;
+                    long double sum = 0;
+                    long double weights = 0;
                     for (std::size_t k = 0; k < 3; ++k) {
                       const long double weight =
                           static_cast<long double>(t.triangle.edge(k, WindowTriangle::center(x, y))) / t.w[k];
@@ -122,9 +132,9 @@ TEST(Interpolation, OfColorsIsHalfALevelFromPerspective) {
           });
 }
 
-// Interpolation leaves the range of the vertices by no more than 7 * 2^-24 of the largest, here 256
-// (interpolation_range_test.cpp): so a level beyond all of the vertices' own is stored only where a vertex is
-// nearer than that to the border between two.
+// Interpolation leaves the range of the vertices by at most 7 * 2^-24 of the largest value, here 256
+// (interpolation_range_test.cpp). So a level beyond those of all vertices is stored only if a vertex is
+// closer than that to the border between two levels.
 constexpr float kHair = 0x1p-13f;
 static_assert(7 * 0x1p-24 * 256 < kHair);
 
@@ -138,7 +148,7 @@ float off_borders(Rng& rng) {
     if (!is_at_border(color)) return color;
   }
 }
-// The colour that is just stored as a level, or just not.
+// The smallest colour that stores as a level, or the float below it.
 float at_border(Rng& rng) {
   const auto level = static_cast<float>(rng.between(1, 255));
   float c = (level - 0.5f) / 255;
@@ -147,7 +157,7 @@ float at_border(Rng& rng) {
   return rng.maybe() ? c : std::nextafter(c, 2.0f);
 }
 
-TEST(Interpolation, OfColorsStaysInTheRangeOfTheVertices) {
+TEST(Interpolation, ColorsStayInTheRangeOfTheVertices) {
   for (const bool borders : {false, true})
     for (const int octaves : {0, 20})
       expect_figure(
@@ -171,11 +181,12 @@ TEST(Interpolation, OfColorsStaysInTheRangeOfTheVertices) {
           });
 }
 
-// Texels of a row of 16: from the picture one sees which one was taken, also of pixels whose centres are on
-// an edge or a vertex. Vertices are right on texels' borders, where a hair less is another texel, or 2^-20
-// within them, more than the 7 * 2^-24 that sums round by.
-TEST(Interpolation, OfTextureCoordinatesTakesNoTexelFromBesideTheRange) {
-  constexpr int kTexels = 16, kSide = 256;
+// A texture of one row of 16 texels: the picture shows which texel was sampled, also at pixels whose centres
+// lie on an edge or a vertex. Vertex coordinates lie exactly on texel borders, where the smallest error
+// selects another texel, or 2^-20 inside, more than the 7 * 2^-24 of the roundings.
+TEST(Interpolation, TextureCoordinatesSampleNoTexelOutsideTheRange) {
+  constexpr int kTexels = 16;
+  constexpr int kSide = 256;
   CaseFormat format{
       .width = kSide, .height = kSide, .texture_width = kTexels, .texture_height = 2, .nearest_texel = true};
   for (int i = 0; i < 2 * kTexels; ++i)
@@ -188,7 +199,8 @@ TEST(Interpolation, OfTextureCoordinatesTakesNoTexelFromBesideTheRange) {
           0, "texels", [&](const MakeRenderer& make, bool is_tessera) {
             const auto renderer = make(format);
             Rng rng(90);
-            long double worst = 0, seen = 0;
+            long double worst = 0;
+            long double seen = 0;
             for (int n = 0; n < (is_tessera && long_tests() ? 20000 : 300); ++n) {
               const WindowTriangle t = random_triangle(rng, WindowShape::centers, kSide, kSide);
               CaseDraw draw{.textured = true};

@@ -1,5 +1,5 @@
-// Lights, scenes and normals of any size: lights as far away as numbers go, scenes from 2^-60 to 2^60,
-// normals of any length; and whatever comes to the kernels comes out within 0..1.
+// Lights, scenes and normals of any size: lights at the limits of float, scenes from 2^-60 to 2^60, normals
+// of any length. Lit colours are within 0..1 for any kernel input.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -15,9 +15,8 @@ namespace tessera::test {
 using namespace detail;
 namespace {
 
-// Far lights shine like those without a place, with what attenuation leaves of them. xyz / w is taken in
-// double.
-TEST(LightLimits, LightsAsFarAwayAsNumbersGo) {
+// Very distant lights match directional lights, scaled by attenuation. xyz / w is computed in double.
+TEST(LightLimits, DistantLightsMatchDirectionalLights) {
   LightingRng rng{std::mt19937(31)};
   Real worst = 0;
   LitPatches scene;
@@ -31,8 +30,8 @@ TEST(LightLimits, LightsAsFarAwayAsNumbersGo) {
     scene.lights = {random_light(rng, 1, 1)};
     Light& light = scene.lights[0];
     const auto [x, y, z] = rng.direction();
-    const auto size = static_cast<float>(std::pow(10, rng.between(-2, 38))),
-               w = static_cast<float>(rng.of({1, -1}) * std::pow(10, rng.between(-38, 2)));
+    const auto size = static_cast<float>(std::pow(10, rng.between(-2, 38)));
+    const auto w = static_cast<float>(rng.of({1, -1}) * std::pow(10, rng.between(-38, 2)));
     light.position = {x * size, y * size, z * size, w};
     const double distance = static_cast<double>(size) / static_cast<double>(std::abs(w));
     const auto spread = [&](double k) { return static_cast<float>(k > 1e-38 && k < 1e38 ? k : 0); };
@@ -55,7 +54,7 @@ TEST(LightLimits, ScenesOfAnySize) {
   LightingRng rng{std::mt19937(32)};
   Real worst = 0;
   LitPatches scene;
-  for (int exponent = -60; exponent <= 53; ++exponent)  // lights are up to 2^7 times as far away
+  for (int exponent = -60; exponent <= 53; ++exponent)  // Lights are up to 2^7 times as far away.
     for (int n = 0; n < 2 * (long_tests() ? 30 : 1); ++n) {
       scene.extent = std::ldexp(1.0, exponent);
       scene.shading = rng.of({Shading::flat, Shading::gouraud, Shading::phong});
@@ -70,8 +69,8 @@ TEST(LightLimits, ScenesOfAnySize) {
   expect_within("scenes from 2^-60 to 2^60", worst, 1, "levels of 255");
 }
 
-// Where normals are normalized at the vertex any length will do, and so it will where Phong renormalizes
-// them, if all of a mesh have about the same.
+// If normals are normalized at the vertices, any length works; so it does if Phong shading renormalizes them,
+// provided that all normals of a mesh have similar lengths.
 TEST(LightLimits, NormalsOfAnyLength) {
   LightingRng rng{std::mt19937(33)};
   Real worst = 0;
@@ -95,9 +94,9 @@ TEST(LightLimits, NormalsOfAnyLength) {
   expect_within("normals from 2^-120 to 2^126", worst, 1, "levels of 255");
 }
 
-// Flat and Gouraud take normals as they are, whatever comes of that; a normal of 0 sees neither diffuse light
+// Flat and Gouraud shading use unnormalized normals as given. A zero normal receives neither diffuse light
 // nor highlights.
-TEST(LightLimits, NormalsAsTheyAre) {
+TEST(LightLimits, UnnormalizedNormalsAreUsedAsGiven) {
   LitPatches scene;
   scene.material = {
       .ambient = {0.25f, 0, 0, 1}, .diffuse = {1, 1, 0, 1}, .specular = {0, 0, 0.5f, 1}, .shininess = 2};
@@ -114,8 +113,9 @@ TEST(LightLimits, NormalsAsTheyAre) {
     }
 }
 
-// Any bits for points; for lights and materials whatever draws accept. And it is what the twin makes of it.
-TEST(LightLimits, WhateverComesIsWithinZeroAndOne) {
+// Points have arbitrary bits; lights and materials have any values that draws accept. Results equal those of
+// the scalar twin.
+TEST(LightLimits, AnyInputIsLitWithinZeroAndOne) {
   LightingRng rng{std::mt19937(34)};
   const auto any = [&](bool finite) {
     for (;;) {

@@ -1,9 +1,9 @@
-// Each term of the lighting equation by itself, as the kernels compute it from the floats they are given,
-// beside long double: bounds that follow from counting roundings.
+// Each term of the lighting equation alone, as the kernels compute it from their float inputs, against long
+// double, with bounds from counted roundings.
 //
-// u = 2^-24 is the largest relative error of one rounding; products of (1 + u) are taken to first order, and
-// bounds are rounded up. `dot` rounds a product of its last components once and adds two more, so that it is
-// within 3 u of the sum of the magnitudes that it adds.
+// u = 2^-24 is the largest relative error of one rounding. Products of (1 + u) are taken to first order, and
+// bounds are rounded up. `dot` rounds the product of the last components once and adds two more, so it is
+// within 3 u of the sum of the magnitudes of its terms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,8 @@ namespace {
 constexpr Real kUnit = 0x1p-24L;
 
 struct Point {
-  std::array<float, 3> normal{}, position{};
+  std::array<float, 3> normal{};
+  std::array<float, 3> position{};
 };
 RealPoint real_point(const Point& p, bool renormalize) {
   return {renormalize ? normalized(real3(p.normal)) : real3(p.normal), real3(p.position)};
@@ -41,7 +42,7 @@ RealLight real_light(const EyeLight& l) {
   return r;
 }
 
-/// What one light makes of points, in red.
+/// Red component of the points, lit by one light.
 std::vector<float> lit_red(const SurfaceMaterial& material, const EyeLight& light, const LightingModel& model,
                            bool renormalize, const std::vector<Point>& points) {
   LightingProgram program = plan_lighting(material, {}, {light}, model, nullptr);
@@ -64,10 +65,11 @@ std::vector<float> lit_red(const SurfaceMaterial& material, const EyeLight& ligh
 constexpr std::size_t kPoints = 64;
 int rounds(int usual) { return long_tests() ? 100 * usual : usual; }
 
-/// Of whole scenes: bounds are relative, so it makes no difference.
+/// Scale of a whole scene. Bounds are relative, so it must not matter.
 double any_scale(LightingRng& rng) { return rng.one_in(2) ? 1 : std::exp2(std::floor(rng.between(-56, 50))); }
 
-/// Around the scene, with w = 0 or not; the direction of its cone is within some 60 degrees of the scene.
+/// A light near the scene, directional or not. Its cone axis is within some 60 degrees of the scene's
+/// direction.
 EyeLight any_light(LightingRng& rng, bool directional, double scale = 1) {
   EyeLight l{.ambient = {0, 0, 0}, .diffuse = {0, 0, 0}, .specular = {0, 0, 0}};
   l.directional = directional;
@@ -90,8 +92,8 @@ std::vector<Point> any_points(LightingRng& rng, bool of_any_length, double scale
   return points;
 }
 
-// Products of colours and their sum, one rounding each: the scene's, and those of lights without a place,
-// which are sums before a point is lit.
+// Products of colours and their sum, one rounding each: the scene's ambient term, and those of directional
+// lights, which are summed before a point is lit.
 TEST(LightTerms, Ambient) {
   LightingRng rng{std::mt19937(21)};
   Real worst = 0;
@@ -108,9 +110,9 @@ TEST(LightTerms, Ambient) {
   expect_within("ambient term, relative", worst / kUnit, 2, "2^-24");
 }
 
-// Of the offset each component is rounded: distance u, squared distance 2 u; its square rounds three times (5
-// u), its root once (3.5 u); the denominator is at most 6 u off by its quadratic part (5 u and once
-// more), 5.5 u by its linear one; its reciprocal rounds once. Coefficients of one sign.
+// Each component of the offset is rounded: distance u, squared distance 2 u. Its square rounds three times (5
+// u), the root once (3.5 u). The denominator is off by at most 6 u through its quadratic part (5 u and one
+// more), by 5.5 u through the linear one. Its reciprocal rounds once. All coefficients have one sign.
 TEST(LightTerms, Attenuation) {
   LightingRng rng{std::mt19937(22)};
   Real worst = 0;
@@ -139,10 +141,10 @@ TEST(LightTerms, Attenuation) {
   expect_within("attenuation, relative", worst / kUnit, 7, "2^-24");
 }
 
-// L's components are 6.5 u off: the offset 2 u in its direction, the reciprocal of its length 3.5 u, their
-// product u; those of a renormalized normal 4.5 u. Products of these with the normal and their sums: 3 u. Of
-// what is added up, at most the length of the normal, not of the cosine: light that grazes has an absolute
-// bound.
+// Components of L are off by 6.5 u: the direction of the offset 2 u, the reciprocal of its length 3.5 u,
+// their product u. Those of a renormalized normal are off by 4.5 u. Products with the normal and their sums
+// add 3 u. Errors are relative to the length of the normal, not to the cosine: at grazing light the bound is
+// absolute.
 TEST(LightTerms, Diffuse) {
   LightingRng rng{std::mt19937(23)};
   for (const bool directional : {true, false})
@@ -153,10 +155,10 @@ TEST(LightTerms, Diffuse) {
         EyeLight light = any_light(rng, directional, scale);
         light.diffuse = {0.5f, 0, 0};
         std::vector<Point> points = any_points(rng, renormalize, scale);
-        for (std::size_t i = 0; i < points.size(); i += 2) {  // light that grazes
+        for (std::size_t i = 0; i < points.size(); i += 2) {  // grazing light
           const Real3 l = directional ? real3(light.position)
-                                      : normalized(real3(light.position) - real3(points[i].position)),
-                      normal = real3(points[i].normal);
+                                      : normalized(real3(light.position) - real3(points[i].position));
+          const Real3 normal = real3(points[i].normal);
           const Real3 across =
               normalized(normal - l * (dot(normal, l) * (1 - std::exp2(rng.between(-30, -2))))) *
               length(normal);
@@ -179,19 +181,21 @@ TEST(LightTerms, Diffuse) {
     }
 }
 
-// The relative error, in u, of a power of a cosine that is so much off, and what the power itself loses
-// (functions_test.cpp), and one rounding. Whole ones are products. @param exponent  of the cosine, or of its
-// square
+// Relative error, in u, of a power of a cosine: the cosine's error times the exponent, the error of the power
+// function (powers_test.cpp), and one rounding. Integer powers are products.
+// @param exponent  applied to the cosine, or to its square
 Real of_power(Real cosine_error, Real cosine, Real y, Real power, float exponent) {
   const int whole = integer_exponent(exponent);
-  return y * cosine_error / cosine + (whole != 0 ? whole : power < 1 / 256.0L ? 230.4L : 17.8L);
+  const Real of_function = power < 1 / 256.0L ? 230.4L : 17.8L;
+  return y * cosine_error / cosine + (whole != 0 ? whole : of_function);
 }
 
-// A cosine of L and the axis: L 6.5 u, dot 3 u.
+// Cosine between L and the axis: L 6.5 u, dot 3 u.
 TEST(LightTerms, Spot) {
   LightingRng rng{std::mt19937(24)};
   for (const float y : {0.5f, 1.0f, 20.0f, 64.0f, 128.0f, 10000.0f}) {
-    Real share = 0, levels = 0;
+    Real share = 0;
+    Real levels = 0;
     int measured = 0;
     for (int n = 0; n < rounds(500); ++n) {
       EyeLight light = any_light(rng, false);
@@ -199,9 +203,9 @@ TEST(LightTerms, Spot) {
       light.spot_cutoff = 90;
       light.spot_exponent = y;
       std::vector<Point> points = any_points(rng, false);
-      for (Point& p : points) {  // within the cone
-        const Real tilt = rng.between(0, 2) / std::sqrt(std::max(y, 4.0f)),
-                   away = std::exp2(rng.between(-2, 2));
+      for (Point& p : points) {  // inside the cone
+        const Real tilt = rng.between(0, 2) / std::sqrt(std::max(y, 4.0f));
+        const Real away = std::exp2(rng.between(-2, 2));
         const Real3 at = real3(light.position) +
                          normalized(real3(light.spot_direction) + real3(rng.direction()) * tilt) * away;
         for (std::size_t c = 0; c < 3; ++c) p.position[c] = static_cast<float>(at[c]);
@@ -211,7 +215,8 @@ TEST(LightTerms, Spot) {
       for (std::size_t i = 0; i < points.size(); ++i) {
         const LightAtPoint exact(real_light(light), real_point(points[i], false), false, SpecularModel::blinn,
                                  0, 0);
-        const Real spot = exact.spot.high, error = std::abs(2 * found[i] - spot);
+        const Real spot = exact.spot.high;
+        const Real error = std::abs(2 * found[i] - spot);
         if (exact.spot_cosine < 64 * 9.5L * kUnit || spot < 0x1p-120L) continue;
         update_worst(share, error / (spot * of_power(9.5L, exact.spot_cosine, y, spot, y) * kUnit));
         update_worst(levels, error * 255);
@@ -225,33 +230,43 @@ TEST(LightTerms, Spot) {
   }
 }
 
-/// One of the ways to compute a highlight.
-struct HighlightWay {
+/// A highlight formula.
+struct HighlightFormula {
   SpecularModel kind;
-  bool directional, local, renormalize, sharp, unit, squared;
+  bool directional;
+  bool local;
+  bool renormalize;
+  bool sharp;
+  bool unit;
+  bool squared;
 
   bool of_square() const {
     return squared && kind == SpecularModel::blinn && !sharp && (local || !directional);
   }
 
-  /// How far its cosine is off, in u: roundings of L and E (towards a point), of the normal, of their dot
-  /// products, of L + E and, but of squares, its length. Sharp ones take normals and directions for units,
-  /// which floats are within u.
+  /// Error of the highlight's cosine, in u: roundings of L and E (towards a point), of the normal, of their
+  /// dot products, of L + E and, unless squared, of its length. Sharp highlights assume unit normals and
+  /// directions, which floats are within u.
   Real cosine_error(const LightAtPoint& exact) const {
-    const Real given = sharp ? 1 : 0, n = renormalize ? 4.5L : given, l = directional ? given : 6.5L,
-               v = local ? 4.5L : 0, n_dot_l = l + n + 3, n_dot_v = local ? v + n + 3 : n;
-    // Sharp: the difference of two vectors, S and n or E and R, is off by that much, and half its square by
-    // that times the difference, half the error's own square, and 1.5 u more; one rounding below 1 is u / 2.
+    const Real given = sharp ? 1 : 0;
+    const Real n = renormalize ? 4.5L : given;
+    const Real l = directional ? given : 6.5L;
+    const Real v = local ? 4.5L : 0;
+    const Real n_dot_l = l + n + 3;
+    const Real n_dot_v = local ? v + n + 3 : n;
+    // Sharp: the difference of two vectors (S and n, or E and R) carries that error. Half its square carries
+    // that error times the difference, half of the error's square, and 1.5 u more. A rounding below 1 is
+    // 0.5 u.
     const auto of_difference = [&](Real error) {
       const Real apart = std::sqrt(2 * std::max<Real>(1 - exact.highlight_base, 0));
       return apart * error + 0.5L * error * error * kUnit + 1.5L * apart * apart + 0.5L;
     };
-    const bool constant_half = directional && !local;  // rounded once; of an L whose length is taken for 1, E
-                                                       // has too much or too little weight in it
+    // Rounded once. L is assumed to have length 1, so E gets slightly too much or too little weight in L + E.
+    const bool constant_half = directional && !local;
     if (kind == SpecularModel::blinn && constant_half)
       return sharp ? of_difference(l / exact.half_length + 1 + n + 1) : 1 + n + 3;
-    // Of squares neither root nor length: the sum of the two cosines u, half of what its square, the square
-    // of L + E and their quotient have, u, 5 u and u.
+    // Squared cosines use neither root nor length. Errors: 1 u of the sum of the two cosines, and half of 7 u
+    // (its square 1 u, the square of L + E 5 u, their quotient 1 u).
     if (kind == SpecularModel::blinn)
       return sharp ? of_difference((l + v) / exact.half_length + 1 + 3.5L + n + 1)
                    : (n_dot_l + n_dot_v + l + v) / exact.half_length + (squared ? 4.5L : 6.5L);
@@ -260,16 +275,16 @@ struct HighlightWay {
   }
 };
 
-/// Normals near where the highlight is brightest.
-void face_highlights(LightingRng& rng, const HighlightWay& way, const EyeLight& light, Real y,
+/// Sets normals to directions near the brightest point of the highlight.
+void face_highlights(LightingRng& rng, const HighlightFormula& formula, const EyeLight& light, Real y,
                      std::vector<Point>& points) {
   for (Point& p : points) {
-    const Real3 at = real3(p.position),
-                l = way.directional ? real3(light.position) : normalized(real3(light.position) - at);
-    const Real3 e = way.local ? normalized(at * -1) : Real3{0, 0, 1};
+    const Real3 at = real3(p.position);
+    const Real3 l = formula.directional ? real3(light.position) : normalized(real3(light.position) - at);
+    const Real3 e = formula.local ? normalized(at * -1) : Real3{0, 0, 1};
     const Real off = rng.between(0, 3) / std::sqrt(std::max<Real>(y, 10));
     const Real3 facing = normalized(normalized(l + e) + real3(rng.direction()) * off) *
-                         (way.renormalize ? rng.between(0.5, 2) : 1);
+                         (formula.renormalize ? rng.between(0.5, 2) : 1);
     for (std::size_t c = 0; c < 3; ++c) p.normal[c] = static_cast<float>(facing[c]);
   }
 }
@@ -278,43 +293,45 @@ TEST(LightTerms, Highlights) {
   LightingRng rng{std::mt19937(25)};
   for (const SpecularModel kind : {SpecularModel::blinn, SpecularModel::phong})
     for (const float y : {0.1f, 0.5f, 1.0f, 50.0f, 128.0f, 2000.0f, 10000.0f}) {
-      Real share = 0, levels = 0;
+      Real share = 0;
+      Real levels = 0;
       int measured = 0;
       for (int n = 0; n < rounds(1600); ++n) {
-        const HighlightWay way{kind,
-                               (n & 1) != 0,
-                               (n & 2) != 0,
-                               (n & 4) != 0,
-                               y > kSharpShininess,
-                               y > kSharpShininess || (n & 8) != 0,
-                               y >= 1 && (n & 8) != 0};
-        EyeLight light = any_light(rng, way.directional);
+        const HighlightFormula formula{kind,
+                                       (n & 1) != 0,
+                                       (n & 2) != 0,
+                                       (n & 4) != 0,
+                                       y > kSharpShininess,
+                                       y > kSharpShininess || (n & 8) != 0,
+                                       y >= 1 && (n & 8) != 0};
+        EyeLight light = any_light(rng, formula.directional);
         light.specular = {0.5f, 0, 0};
         const LightingModel model{.scene_ambient = {0, 0, 0},
-                                  .local_viewer = way.local,
+                                  .local_viewer = formula.local,
                                   .phong_highlight = kind == SpecularModel::phong,
-                                  .unit_normals = way.unit};
+                                  .unit_normals = formula.unit};
         std::vector<Point> points = any_points(rng, false);
-        face_highlights(rng, way, light, y, points);
+        face_highlights(rng, formula, light, y, points);
         const std::vector<float> found =
             lit_red({.diffuse = {0, 0, 0}, .specular = {1, 0, 0}, .shininess = y}, light, model,
-                    way.renormalize, points);
+                    formula.renormalize, points);
         RealLight exact_light = real_light(light);
-        if (way.sharp && way.directional) exact_light.position = normalized(exact_light.position);
+        if (formula.sharp && formula.directional) exact_light.position = normalized(exact_light.position);
         for (std::size_t i = 0; i < points.size(); ++i) {
-          const LightAtPoint exact(exact_light, real_point(points[i], way.renormalize || way.sharp),
-                                   way.local, kind, y, 0);
-          const Real shine = exact.highlight.high, cosine_error = way.cosine_error(exact),
-                     error = std::abs(2 * found[i] - shine);
-          if (exact.n_dot_l < 20 * kUnit || exact.highlight_base < 64 * cosine_error * kUnit)
-            continue;  // another formula, or none
-          // Those below 2^-32 are left out.
+          const LightAtPoint exact(exact_light, real_point(points[i], formula.renormalize || formula.sharp),
+                                   formula.local, kind, y, 0);
+          const Real shine = exact.highlight.high;
+          const Real cosine_error = formula.cosine_error(exact);
+          const Real error = std::abs(2 * found[i] - shine);
+          // Another formula, or no highlight.
+          if (exact.n_dot_l < 20 * kUnit || exact.highlight_base < 64 * cosine_error * kUnit) continue;
+          // Highlights below 2^-32 are skipped.
           update_worst(share, error / (shine *
                                            of_power(cosine_error, exact.highlight_base, y, shine,
-                                                    way.of_square() ? y / 2 : y) *
+                                                    formula.of_square() ? y / 2 : y) *
                                            kUnit +
                                        0x1p-31L));
-          // Where light comes from just behind what is seen, nothing is left of L + E but their roundings.
+          // If the light is almost opposite to the viewer, L + E consists of rounding errors only.
           if (kind == SpecularModel::phong || exact.half_length >= 0.125L) update_worst(levels, error * 255);
           ++measured;
         }

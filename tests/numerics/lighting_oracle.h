@@ -1,6 +1,6 @@
-// Section 5 of the specification in long double: what a point looks like under lights, term by term. Where
-// rounding decides on which side of a jump a point lies (the edge of a cone, the terminator of a highlight),
-// both sides are right: sums are intervals.
+// Section 5 of the specification in long double: colour of a lit point, term by term. Where rounding decides
+// between the two sides of a discontinuity (the edge of a cone, the terminator of a highlight), both sides
+// are right, so sums are intervals.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ inline Real3 real3(const Color& c) { return {c.r, c.g, c.b}; }
 struct RealRange {
   Real low = 0, high = 0;
 };
-/// factor * range, whichever sign the factor has.
+/// factor * range for a factor of either sign.
 inline RealRange operator*(Real factor, const RealRange& r) {
   return {std::min(factor * r.low, factor * r.high), std::max(factor * r.low, factor * r.high)};
 }
@@ -40,15 +40,19 @@ inline RealRange operator+(const RealRange& a, const RealRange& b) {
   return {a.low + b.low, a.high + b.high};
 }
 
-/// A light as seen from the eye's space: directions of length 1.
+/// A light in eye space; directions have length 1.
 struct RealLight {
-  Real3 ambient{}, diffuse{}, specular{};
+  Real3 ambient{};
+  Real3 diffuse{};
+  Real3 specular{};
   bool directional = true;
-  Real3 position{}, spot_direction{};
-  Real spot_exponent = 0, spot_cutoff = 180;
+  Real3 position{};
+  Real3 spot_direction{};
+  Real spot_exponent = 0;
+  Real spot_cutoff = 180;
   Real3 attenuation{1, 0, 0};
 };
-/// Of a light in the world, whose eye space is where `view`, which neither stretches nor bends, puts it.
+/// Transforms a light from world to eye space. `view` must be rigid.
 inline RealLight real_light(const Light& l, const Matrix& view = {}) {
   const auto seen = [&](const Real3& v, Real w) {
     Real3 s;
@@ -68,16 +72,23 @@ inline RealLight real_light(const Light& l, const Matrix& view = {}) {
 }
 
 struct RealPoint {
-  Real3 normal{}, position{};
+  Real3 normal{};
+  Real3 position{};
 };
 
 /// x^0 = 1 for every x.
-inline Real real_power(Real x, Real y) { return y == 0 ? 1 : x > 0 ? std::pow(x, y) : 0; }
+inline Real real_power(Real x, Real y) {
+  if (y == 0) return 1;
+  return x > 0 ? std::pow(x, y) : 0;
+}
 
-/// What one light does at one point. `slack` is how far the cosines of an implementation may be off.
+/// Contribution of one light at one point. `slack` is the tolerance of the implementation's cosines.
 struct LightAtPoint {
-  Real att = 1, n_dot_l = 0, spot_cosine = 1, highlight_base = 0;
-  Real half_length = 2;  ///< |L + E|, Blinn's
+  Real att = 1;
+  Real n_dot_l = 0;
+  Real spot_cosine = 1;
+  Real highlight_base = 0;
+  Real half_length = 2;  ///< |L + E|, for Blinn's model
   RealRange spot{1, 1}, highlight{0, 0};
 
   LightAtPoint(const RealLight& light, const RealPoint& point, bool local_viewer, SpecularModel kind,
@@ -85,7 +96,7 @@ struct LightAtPoint {
     const Real3 offset = light.directional ? light.position : light.position - point.position;
     const Real distance = length(offset);
     const Real3 l = light.directional ? light.position : normalized(offset);
-    if (distance == 0) slack = 0;  // nothing to round there: L is 0
+    if (distance == 0) slack = 0;  // No rounding there: L is 0.
     if (!light.directional) {
       const Real denominator =
           light.attenuation[0] + light.attenuation[1] * distance + light.attenuation[2] * distance * distance;
@@ -96,39 +107,42 @@ struct LightAtPoint {
       const Real edge =
           light.spot_cutoff == 90 ? 0 : std::cos(light.spot_cutoff * std::numbers::pi_v<Real> / 180);
       const Real inside = real_power(spot_cosine, light.spot_exponent);
-      const bool surely = spot_cosine >= edge + slack && spot_cosine > slack,
-                 maybe = spot_cosine >= edge - slack && spot_cosine > -slack;
+      const bool surely = spot_cosine >= edge + slack && spot_cosine > slack;
+      const bool maybe = spot_cosine >= edge - slack && spot_cosine > -slack;
       spot = {surely ? inside : 0, maybe ? inside : 0};
     }
     n_dot_l = dot(point.normal, l);
-    const Real3 e = local_viewer ? normalized(point.position * -1) : Real3{0, 0, 1}, half = l + e;
+    const Real3 e = local_viewer ? normalized(point.position * -1) : Real3{0, 0, 1};
+    const Real3 half = l + e;
     half_length = length(half);
     if (kind == SpecularModel::blinn) highlight_base = dot(normalized(half), point.normal);
     else highlight_base = dot(point.normal * (2 * n_dot_l) - l, e);
-    const Real shine = real_power(highlight_base, shininess),
-               reach = slack * std::max<Real>(length(point.normal), 1);
+    const Real shine = real_power(highlight_base, shininess);
+    const Real reach = slack * std::max<Real>(length(point.normal), 1);
     highlight = {n_dot_l > reach ? shine : 0, n_dot_l > -reach && (slack > 0 || n_dot_l > 0) ? shine : 0};
   }
 };
 
-/// The colour of a point of a front face (else of a back face), clamped to 0..1.
+/// Colour of a point on a front (or back) face, clamped to 0..1.
 inline std::array<RealRange, 3> lit_color(const Material& material, std::span<const Light> lights,
                                           const LightModel& model, RealPoint point, Real slack,
                                           bool front = true, const Matrix& view = {}) {
   if (!front) point.normal = point.normal * -1;
   std::array<RealRange, 3> sum;
-  const Real3 emission = real3(material.emission), scene = real3(model.ambient),
-              ambient = real3(material.ambient), diffuse = real3(material.diffuse),
-              specular = real3(material.specular);
+  const Real3 emission = real3(material.emission);
+  const Real3 scene = real3(model.ambient);
+  const Real3 ambient = real3(material.ambient);
+  const Real3 diffuse = real3(material.diffuse);
+  const Real3 specular = real3(material.specular);
   for (std::size_t c = 0; c < 3; ++c) sum[c].low = sum[c].high = emission[c] + scene[c] * ambient[c];
   for (const Light& given : lights) {
     const RealLight light = real_light(given, view);
     const LightAtPoint at(light, point, model.local_viewer, model.specular, material.shininess, slack);
     for (std::size_t c = 0; c < 3; ++c) {
-      const Real even = light.ambient[c] * ambient[c] +
-                        std::max<Real>(at.n_dot_l, 0) * light.diffuse[c] * diffuse[c],
-                 shine = light.specular[c] * specular[c];
-      // The four corners of what may be: inside the cone or not, with the highlight or not.
+      const Real even =
+          light.ambient[c] * ambient[c] + std::max<Real>(at.n_dot_l, 0) * light.diffuse[c] * diffuse[c];
+      const Real shine = light.specular[c] * specular[c];
+      // The four combinations: inside the cone or not, with highlight or without.
       RealRange all{};
       bool first = true;
       for (const Real s : {at.spot.low, at.spot.high})

@@ -1,8 +1,8 @@
-// Whole sums of lights through the public interface, within one level of 255 of long double
+// Complete sums of lights through the public interface, within one level of 255 of long double
 // (lighting_oracle.h).
 //
-// Why one level: half a level is what storing rounds by; everything else is roundings of terms, each at most
-// some 2^-24 times the exponent (light_terms_test.cpp), of which half a level is 32,900.
+// Why one level: storing rounds by half a level. Everything else is the rounding of terms, each at most about
+// 2^-24 times the exponent (light_terms_test.cpp); half a level is 32,900 times 2^-24.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,14 +17,16 @@ namespace tessera::test {
 namespace {
 
 const char* name(Shading s) {
-  return s == Shading::flat ? "flat" : s == Shading::gouraud ? "Gouraud" : "Phong";
+  if (s == Shading::flat) return "flat";
+  return s == Shading::gouraud ? "Gouraud" : "Phong";
 }
 
 class WholeSums : public testing::TestWithParam<int> {};
 
-TEST_P(WholeSums, OfAnyLightsAreWithinOneLevel) {
+TEST_P(WholeSums, AreWithinOneLevel) {
   const auto count = static_cast<std::size_t>(GetParam());
-  const int frames = (count > 100 ? 1 : count > 10 ? 3 : 8) * (long_tests() ? 50 : 1);
+  const int few_lights = count > 10 ? 3 : 8;
+  const int frames = (count > 100 ? 1 : few_lights) * (long_tests() ? 50 : 1);
   LightingRng rng{std::mt19937(static_cast<std::uint32_t>(GetParam()))};
   for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
     Real worst = 0;
@@ -32,7 +34,7 @@ TEST_P(WholeSums, OfAnyLightsAreWithinOneLevel) {
     scene.shading = shading;
     for (int variant = 0; variant < 16; ++variant)
       for (int n = 0; n < frames; ++n) {
-        // A quarter of the variants, where both values of each of their bits are.
+        // A quarter of the variants, chosen so that each bit takes both values.
         if (count > 100 && ((variant ^ variant >> 2) + n) % 4 != 0) continue;
         scene.model.local_viewer = (variant & 1) != 0;
         scene.model.specular = (variant & 2) != 0 ? SpecularModel::phong : SpecularModel::blinn;
@@ -53,14 +55,14 @@ TEST_P(WholeSums, OfAnyLightsAreWithinOneLevel) {
     expect_within(std::string("whole sum, ") + name(shading) + ", " + std::to_string(count) +
                       (count == 1 ? " light" : " lights"),
                   worst, 1, "levels of 255");
-    EXPECT_GT(scene.unsaturated, std::size_t{LitPatches::kCount}) << "nothing was measured";
+    EXPECT_GT(scene.unsaturated, std::size_t{LitPatches::kCount}) << "no unsaturated component was measured";
   }
 }
 INSTANTIATE_TEST_SUITE_P(Lighting, WholeSums, testing::Values(1, 8, 64, 1000));
 
-// What only one pixel in thousands of random ones would see: each patch faces the highlight, up to an angle
-// where it has all but faded.
-TEST(Lighting, SharpHighlightsAreWithinOneLevel) {
+// Highlights too small for random pixels: each patch faces the highlight within an angle at which it has
+// almost faded.
+TEST(LightingAccuracy, SharpHighlightsAreWithinOneLevel) {
   LightingRng rng{std::mt19937(11)};
   for (const float shininess : {0.5f, 128.0f, 10000.0f}) {
     Real worst = 0;
@@ -81,10 +83,10 @@ TEST(Lighting, SharpHighlightsAreWithinOneLevel) {
         Patch& patch = scene.patches[static_cast<std::size_t>(p)];
         for (float& at : patch.z) at = -std::abs(at);
         for (int k = 0; k < 4; ++k) {
-          const Real3 at = real3(scene.corner(p, k)),
-                      l = light.directional ? light.position : normalized(light.position - at);
-          const Real3 e = scene.model.local_viewer ? normalized(at * -1) : Real3{0, 0, 1},
-                      peak = normalized(l + e);
+          const Real3 at = real3(scene.corner(p, k));
+          const Real3 l = light.directional ? light.position : normalized(light.position - at);
+          const Real3 e = scene.model.local_viewer ? normalized(at * -1) : Real3{0, 0, 1};
+          const Real3 peak = normalized(l + e);
           const double off = rng.between(0, 3) / std::sqrt(std::max(shininess, 10.0f));
           const std::array<float, 3> bend = rng.direction();
           for (std::size_t c = 0; c < 3; ++c)
@@ -99,7 +101,7 @@ TEST(Lighting, SharpHighlightsAreWithinOneLevel) {
   }
 }
 
-TEST(Lighting, SharpConesAreWithinOneLevel) {
+TEST(LightingAccuracy, SharpConesAreWithinOneLevel) {
   LightingRng rng{std::mt19937(12)};
   for (const float exponent : {0.5f, 128.0f, 10000.0f}) {
     Real worst = 0;
@@ -109,7 +111,7 @@ TEST(Lighting, SharpConesAreWithinOneLevel) {
       scene.material = {.ambient = {1, 0.5f, 0, 1}, .diffuse = {0, 0.5f, 1, 1}};
       randomize_patches(rng, scene);
       const auto [x, y, z] = rng.direction();
-      // So far that the cone fades within the frame.
+      // Far enough that the cone fades within the frame.
       const auto distance = static_cast<float>(std::min(std::sqrt(exponent), 30.0f) + 2);
       scene.lights = {Light{.ambient = {1, 1, 1, 1},
                             .position = {distance * x, distance * y, distance * std::abs(z), 1},
@@ -123,14 +125,13 @@ TEST(Lighting, SharpConesAreWithinOneLevel) {
   }
 }
 
-// Patches that all lie in the plane z = 0 and face the viewer, each corner and middle at whole multiples of
-// 1/16.
+// Patches in the plane z = 0, facing the viewer; every corner and midpoint is a multiple of 1/16.
 void lie_flat(LitPatches& scene) {
   for (Patch& patch : scene.patches)
     patch = {.normals = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}}}, .z = {}, .front = true};
 }
 
-TEST(Lighting, OfALightInTheSurfaceIsItsAmbientPart) {
+TEST(LightingAccuracy, LightInTheSurfaceAddsItsAmbientPartOnly) {
   for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
     for (const float shininess : kExponents)
       for (const bool local : {false, true}) {
@@ -143,7 +144,7 @@ TEST(Lighting, OfALightInTheSurfaceIsItsAmbientPart) {
                           .diffuse = {1, 1, 1, 1},
                           .specular = {1, 1, 1, 1},
                           .shininess = shininess};
-        // In general position, at a corner, in a patch's middle.
+        // In general position, at a corner, and at the middle of a patch.
         for (const std::array<float, 4>& at :
              {std::array{0.3f, 3.7f, 0.0f, 1.0f}, std::array{0.25f, -0.5f, 0.0f, 1.0f},
               std::array{0.0625f, 0.0625f, 0.0f, 1.0f}, std::array{1.0f, 2.0f, 0.0f, 0.0f}}) {
@@ -153,8 +154,9 @@ TEST(Lighting, OfALightInTheSurfaceIsItsAmbientPart) {
       }
 }
 
-// There L is 0: neither diffuse light nor highlight, no cone, and of the attenuation the constant part alone.
-TEST(Lighting, OfALightAtTheVertexOrTheEyeIsAnyOther) {
+// At the light's position L is 0: no diffuse light, no highlight, no cone, and only the constant part of the
+// attenuation.
+TEST(LightingAccuracy, LightAtTheVertexOrTheEyeFollowsTheFormula) {
   LightingRng rng{std::mt19937(13)};
   Real worst = 0;
   for (int n = 0; n < 200 * (long_tests() ? 30 : 1); ++n) {
@@ -165,14 +167,13 @@ TEST(Lighting, OfALightAtTheVertexOrTheEyeIsAnyOther) {
     randomize_patches(rng, scene);
     scene.material = random_material(rng);
     scene.lights = {random_light(rng, 1, 1)};
-    const int p =
-        LitPatches::kSide / 2 *
-        (LitPatches::kSide + 1);  // its last corner but two is the eye, if it lies in the plane z = 0
+    // Corner 2 of this patch coincides with the eye if it lies in the plane z = 0.
+    const int p = LitPatches::kSide / 2 * (LitPatches::kSide + 1);
     scene.patches[static_cast<std::size_t>(p)].z.fill(rng.one_in(2) ? 0
                                                                     : static_cast<float>(rng.between(-2, 2)));
     std::array<float, 3> at =
         rng.one_in(2) ? std::array<float, 3>{0, 0, 0} : scene.corner(p, rng.of({0, 2, 3}));
-    if (rng.one_in(3))  // the middle of the patch, which Phong lights
+    if (rng.one_in(3))  // the middle of the patch, which Phong shading lights
       for (std::size_t c = 0; c < 3; ++c) at[c] = (scene.corner(p, 0)[c] + scene.corner(p, 2)[c]) / 2;
     scene.lights[0].position = {at[0], at[1], at[2], 1};
     update_worst(worst, scene.error_in_levels());
@@ -180,8 +181,8 @@ TEST(Lighting, OfALightAtTheVertexOrTheEyeIsAnyOther) {
   expect_within("light at the vertex or at the eye", worst, 1, "levels of 255");
 }
 
-// 1 / (kc + kl d + kq d^2), and a million where that is not above 0.
-TEST(Lighting, OfAttenuationWithoutAPositiveDenominatorIsAMillion) {
+// 1 / (kc + kl d + kq d^2); 10^6 if the denominator is not positive.
+TEST(LightingAccuracy, AttenuationWithoutAPositiveDenominatorIsOneMillion) {
   LitPatches scene;
   lie_flat(scene);
   scene.material = {.ambient = {1, 1, 1, 1}, .diffuse = {1, 1, 1, 1}};
@@ -202,16 +203,17 @@ TEST(Lighting, OfAttenuationWithoutAPositiveDenominatorIsAMillion) {
   EXPECT_GT(scene.unsaturated, std::size_t{14 * LitPatches::kCount});
 }
 
-// A light shows where its cone ends by its ambient part: on the axis alone, a thousandth of a degree above
-// the surface, in its own plane, nowhere.
-TEST(Lighting, ConesEndWhereTheyShould) {
+// The ambient part of a light shows the extent of its cone: cutoff 0, 0.001 degrees below 90, 90, and 180 (no
+// cone).
+TEST(LightingAccuracy, ConesEndAtTheirCutoff) {
   LitPatches scene;
   lie_flat(scene);
   scene.material = {.ambient = {1, 1, 1, 1}, .diffuse = {0, 0, 0, 1}};
   const auto lit = [&](float cutoff, float z, Real slack, Shading shading, float spot_z = -1) {
     scene.shading = shading;
     scene.slack = slack;
-    const float middle = shading == Shading::phong ? 0.0625f : 0.125f;  // of a patch, or of one's last corner
+    // The middle of a patch, or its last corner.
+    const float middle = shading == Shading::phong ? 0.0625f : 0.125f;
     scene.lights = {Light{.ambient = {1, 0.5f, 0.25f, 1},
                           .position = {middle, middle, z, 1},
                           .spot_direction = {0, 0, spot_z},
@@ -223,8 +225,9 @@ TEST(Lighting, ConesEndWhereTheyShould) {
   for (const Shading shading : {Shading::flat, Shading::phong}) {
     EXPECT_EQ(lit(0, 1, 0, shading), 1) << "the patch straight below";
     EXPECT_EQ(lit(0, 0x1p-20f, 0, shading), 1);
-    const auto inside =
-        lit(89.999f, 1.7453e-5f, kCosineSlack, shading);  // its tangent's: as far as 1 from there
+    // The height is the tangent of the remaining 0.001 degrees, so the cone has radius 1 in the plane of the
+    // patches.
+    const auto inside = lit(89.999f, 1.7453e-5f, kCosineSlack, shading);
     EXPECT_TRUE(inside > 100 && inside < 250) << inside;
     EXPECT_EQ(lit(90, 0x1p-20f, 0, shading), LitPatches::kCount);
     EXPECT_EQ(lit(90, 0, 0, shading), 0) << "V.D is 0";
@@ -235,9 +238,9 @@ TEST(Lighting, ConesEndWhereTheyShould) {
   }
 }
 
-// Down to where cosines as floats say nothing at all: 2^-24 below 1 is 0.02 degrees. Cones are 2^-22 wider
-// than they should be, and L and D have roundings of their own.
-TEST(Lighting, NarrowConesEndWhereTheyShould) {
+// Down to angles that float cosines cannot resolve: 1 - 2^-24 is 0.02 degrees. Cones are widened by 2^-22; L
+// and D have their own roundings.
+TEST(LightingAccuracy, NarrowConesEndAtTheirCutoff) {
   constexpr double kDegree = std::numbers::pi / 180;
   LightingRng rng{std::mt19937(15)};
   LitPatches scene;
@@ -245,9 +248,12 @@ TEST(Lighting, NarrowConesEndWhereTheyShould) {
   scene.material = {.ambient = {1, 1, 1, 1}, .diffuse = {0, 0, 0, 1}};
   for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
     for (const float cutoff : {0.001f, 0.01f, 0.014f, 0.1f, 0.5f, 0.999f}) {
-      const double radius = 0.5, distance = radius / std::tan(cutoff * kDegree), slack = 0x1p-21;
+      const double radius = 0.5;
+      const double distance = radius / std::tan(cutoff * kDegree);
+      const double slack = 0x1p-21;
       const auto [x, y, z] = rng.direction();
-      const double d[3] = {x / 3, y / 3, std::abs(z) + 0.2}, length = std::hypot(d[0], d[1], d[2]);
+      const double d[3] = {x / 3, y / 3, std::abs(z) + 0.2};
+      const double length = std::hypot(d[0], d[1], d[2]);
       Light light{.ambient = {1, 0.5f, 0.25f, 1}, .position = {0, 0, 0, 1}, .spot_cutoff = cutoff};
       for (std::size_t c = 0; c < 3; ++c) {
         light.position[c] = static_cast<float>(distance * d[c] / length);
@@ -259,14 +265,14 @@ TEST(Lighting, NarrowConesEndWhereTheyShould) {
       EXPECT_LE(scene.error_in_levels(), 0.501L) << cutoff << " " << static_cast<int>(shading);
       const auto lit = std::count_if(scene.levels.begin(), scene.levels.end(),
                                      [](const std::array<int, 3>& c) { return c[0] > 0; });
-      EXPECT_TRUE(lit > 40 && lit < 90) << lit << " of a circle that is 50 large, and foreshortened";
+      EXPECT_TRUE(lit > 40 && lit < 90)
+          << lit << " patches lit, expected 40 to 90: a foreshortened circle of area 50";
     }
 }
 
-// The normals of two corners nearly cancel out in the middle: what they were rounded by (2^-24 of each, and 2
-// more as they are interpolated) is then that much of what is left of them. Where nothing is left, there is
-// no diffuse light.
-TEST(Lighting, OfOppositeNormalsIsThatOfWhatIsLeftOfThem) {
+// The normals of two corners nearly cancel out in the middle. Their rounding errors (2^-24 each, and 2 more
+// from interpolation) are then relative to the small remainder. If nothing remains there is no diffuse light.
+TEST(LightingAccuracy, OppositeNormalsUseTheirRemainder) {
   LightingRng rng{std::mt19937(14)};
   Real worst = 0;
   LitPatches scene;
@@ -276,8 +282,10 @@ TEST(Lighting, OfOppositeNormalsIsThatOfWhatIsLeftOfThem) {
   for (int exponent = -24; exponent <= 0; ++exponent) {
     const Real left = exponent == -24 ? 0 : std::ldexp(1.0L, exponent);  // twice the length of the mean
     for (Patch& patch : scene.patches) {
-      const std::array<float, 3> normal = rng.direction(), other = rng.direction();
-      const Real3 n = real3(normal), across = normalized(real3(other) - n * dot(real3(other), n));
+      const std::array<float, 3> normal = rng.direction();
+      const std::array<float, 3> other = rng.direction();
+      const Real3 n = real3(normal);
+      const Real3 across = normalized(real3(other) - n * dot(real3(other), n));
       patch.normals = {normal, other, {}, other};
       for (std::size_t c = 0; c < 3; ++c) patch.normals[2][c] = static_cast<float>(left * across[c] - n[c]);
     }

@@ -1,4 +1,4 @@
-// One small quad for each pixel of a small frame, lit by the whole engine, beside what the oracle says of it.
+// One small quad per pixel of a small frame, lit by the engine and compared with the oracle.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace tessera::test {
 
-/// The same numbers on every machine and library.
+/// Random numbers that are identical on every machine and standard library.
 struct LightingRng {
   std::mt19937 random;
   double unit() { return static_cast<double>(random()) * 0x1p-32; }
@@ -33,11 +33,11 @@ struct LightingRng {
   }
 };
 
-/// Where rounding may decide: cosines of the engine are within 15 * 2^-24 (light_terms_test.cpp) of those of
-/// what it is given, and the normals and directions it is given were rounded once, each by less than 2^-24.
+/// Tolerance of cosines. The engine's cosines are within 15 * 2^-24 (light_terms_test.cpp) of those of its
+/// inputs, and the input normals and directions were rounded once, each by less than 2^-24.
 inline constexpr Real kCosineSlack = 20 * 0x1p-24L;
 
-/// One quad: its first and third corner meet in the middle of its pixel, the last one is the provoking
+/// One quad. Its first and third corner coincide at the centre of its pixel; the last one is the provoking
 /// vertex.
 struct Patch {
   std::array<std::array<float, 3>, 4> normals{};
@@ -47,25 +47,29 @@ struct Patch {
 
 class LitPatches {
  public:
-  static constexpr int kSide = 16, kCount = kSide * kSide;
+  static constexpr int kSide = 16;
+  static constexpr int kCount = kSide * kSide;
 
-  Material material, back_material;
+  Material material;
+  Material back_material;
   LightModel model{.ambient = {0, 0, 0, 1}};
   std::vector<Light> lights;
   Shading shading = Shading::gouraud;
   bool normalize = true;
-  double extent = 1;  ///< the frame shows -extent .. extent, a power of two
+  double extent = 1;  ///< half size of the visible square, a power of two
   Real slack = kCosineSlack;
   std::array<Patch, kCount> patches{};
-  Matrix view{},
-      world_from_eye{};  ///< of the camera; patches are where it sees them, lights are in the world
+  /// The camera. Patches are in eye space, lights in world space.
+  Matrix view{};
+  Matrix world_from_eye{};
 
-  /// A camera turned any way, up to 10^4 frames from the world's origin; each light as it was from there, but
-  /// for its rounding to floats.
+  /// Places the camera in any orientation, up to 10^4 frame sizes from the world's origin. Each light keeps
+  /// its eye-space position, apart from float rounding.
   void move_camera(LightingRng& rng) {
     const auto [ax, ay, az] = rng.direction();
     const auto [ex, ey, ez] = rng.direction();
-    const double angle = rng.between(0, 360), far = extent * std::exp2(rng.between(-4, 13.28));
+    const double angle = rng.between(0, 360);
+    const double far = extent * std::exp2(rng.between(-4, 13.28));
     view = rotate(angle, ax, ay, az) * translate(-far * ex, -far * ey, -far * ez);
     world_from_eye = translate(far * ex, far * ey, far * ez) * rotate(-angle, ax, ay, az);
     const auto moved = [&](const std::array<float, 3>& v, double w) {
@@ -82,7 +86,7 @@ class LitPatches {
     }
   }
 
-  /// Of a patch's corners 0 to 3, counter-clockwise as seen.
+  /// Corner k (0 to 3) of a patch, counter-clockwise as seen by the viewer.
   std::array<float, 3> corner(int patch, int k) const {
     const int column = patch % kSide + (k == 1 || k == 2), row = patch / kSide + (k < 2);
     const double scale = 2 * extent / kSide;
@@ -90,8 +94,8 @@ class LitPatches {
             patches[static_cast<std::size_t>(patch)].z[static_cast<std::size_t>(k)]};
   }
 
-  /// By how many levels of 255 what the engine stores is off, of which storing it may take half a level: the
-  /// most of all pixels.
+  /// Largest error of the stored colours over all pixels, in levels of 255. Storing accounts for half a
+  /// level.
   Real error_in_levels() {
     draw();
     Real worst = 0;
@@ -106,16 +110,17 @@ class LitPatches {
     return worst;
   }
   std::array<std::array<int, 3>, kCount> levels{};
-  std::size_t unsaturated = 0;  ///< components that no clamp touched, of all frames
+  std::size_t unsaturated = 0;  ///< components without clamping, over all frames
 
   void draw() {
     std::vector<float> positions, normals;
     for (int p = 0; p < kCount; ++p)
       for (int k = 0; k < 4; ++k) {
-        const int turned =
-            patches[static_cast<std::size_t>(p)].front ? k : (6 - k) % 4;  // 2 1 0 3: the last corner stays
-        const std::array<float, 3> at = corner(p, turned), n = patches[static_cast<std::size_t>(p)]
-                                                                   .normals[static_cast<std::size_t>(turned)];
+        // Back faces use the order 2 1 0 3: the last corner stays.
+        const int turned = patches[static_cast<std::size_t>(p)].front ? k : (6 - k) % 4;
+        const std::array<float, 3> at = corner(p, turned);
+        const std::array<float, 3> n =
+            patches[static_cast<std::size_t>(p)].normals[static_cast<std::size_t>(turned)];
         positions.insert(positions.end(), at.begin(), at.end());
         normals.insert(normals.end(), n.begin(), n.end());
       }
@@ -154,8 +159,8 @@ class LitPatches {
                        {normalized(a.normal + b.normal), (a.position + b.position) * 0.5L}, slack, front,
                        view);
     std::array<RealRange, 3> mean;
-    const auto of_a = lit_color(used, lights, model, a, slack, front, view),
-               of_b = lit_color(used, lights, model, b, slack, front, view);
+    const auto of_a = lit_color(used, lights, model, a, slack, front, view);
+    const auto of_b = lit_color(used, lights, model, b, slack, front, view);
     for (std::size_t c = 0; c < 3; ++c) mean[c] = 0.5L * (of_a[c] + of_b[c]);
     return mean;
   }

@@ -1,5 +1,5 @@
-// Write masks, plane by plane: of whatever is drawn, in every format, exactly the bits of the mask change,
-// and to what they would have been without it.
+// Write masks, plane by plane: for any draw and format exactly the bits of the mask change, to the values
+// they would have without a mask.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -15,7 +15,7 @@ constexpr int kWidth = 40, kHeight = 24;
 
 struct Kind {
   const char* name;
-  bool covers_all;  ///< every sample of every pixel
+  bool covers_all;  ///< covers every sample of every pixel
   std::function<void(Frame&, const FragmentState&)> draw;
 };
 
@@ -29,13 +29,13 @@ MeshData with_colors(MeshData mesh) {
   return mesh;
 }
 
-// What they borrow is static.
+// The data they borrow is static.
 std::vector<Kind> kinds() {
-  // One triangle: of two, each with colours of its own at a pixel that both have samples of, a mean would be
-  // left.
-  static const MeshData window = with_colors(
-                            {.positions = {-1, -1, 0.2f, 3, -1, 0.2f, -1, 3, 0.2f}, .indices = {0, 1, 2}}),
-                        corners = with_colors(rectangle(-0.7f, -0.8f, 0.9f, 0.6f));
+  // A single triangle: two triangles of different colours would leave a mean at pixels that both partially
+  // cover.
+  static const MeshData window =
+      with_colors({.positions = {-1, -1, 0.2f, 3, -1, 0.2f, -1, 3, 0.2f}, .indices = {0, 1, 2}});
+  static const MeshData corners = with_colors(rectangle(-0.7f, -0.8f, 0.9f, 0.6f));
   static const std::vector<std::uint8_t> bytes = [] {
     std::vector<std::uint8_t> all;
     Random random(13);
@@ -113,9 +113,10 @@ std::vector<FrameBufferFormat> formats() {
   return all;
 }
 
-/// What stands in them after a background and a draw over it.
+/// Buffer contents after a background and a draw over it.
 struct Buffers {
-  std::vector<std::uint32_t> words, depths;
+  std::vector<std::uint32_t> words;
+  std::vector<std::uint32_t> depths;
 };
 Buffers run(const FrameBufferFormat& format, const std::function<void(Frame&)>& draw) {
   static Renderer renderer({.threads = 1});
@@ -129,13 +130,13 @@ Buffers run(const FrameBufferFormat& format, const std::function<void(Frame&)>& 
   Frame frame(buffer);
   frame.draw_image({.pixels = background.data(), .width = kWidth, .height = kHeight},
                    {.depth = {.enabled = false}});
-  renderer.finish(frame);  // samples, too, begin with one word a pixel
+  renderer.finish(frame);  // Ends the frame, so that all samples of a pixel start with the same packed color.
   draw(frame);
   renderer.finish(frame);
   return {packed_colors(buffer), stored_depths(buffer)};
 }
 
-// Operations that look at what is there go through the masks like all others.
+// Operations that read the stored colour respect the masks like all others.
 std::vector<FragmentState> operations(const FrameBufferFormat& format) {
   std::vector<FragmentState> all(2);
   all[1].logic_op = LogicOp::bit_xor;
@@ -143,24 +144,23 @@ std::vector<FragmentState> operations(const FrameBufferFormat& format) {
   return all;
 }
 
-TEST(Masks, ChangeTheBitsOfTheirPlanesAlone) {
+TEST(Masks, ChangeOnlyTheBitsOfTheirPlanes) {
   for (const FrameBufferFormat& format : formats())
     for (const Kind& kind : kinds()) {
-      if (format.samples > 1 && !kind.covers_all)
-        continue;  // a mean of words that keep some of their bits is no word that keeps them
+      // A mean of samples with preserved bits does not preserve those bits.
+      if (format.samples > 1 && !kind.covers_all) continue;
       for (const FragmentState& operation : operations(format)) {
-        SCOPED_TRACE(std::string(kind.name) + ", " + describe(format) +
-                     (operation.blend                       ? ", blended"
-                      : operation.logic_op != LogicOp::copy ? ", xor"
-                                                            : ""));
-        const Buffers before = run(format, [](Frame&) {}),
-                      full = run(format, [&](Frame&frame) { kind.draw(frame, operation); });
+        SCOPED_TRACE(std::string(kind.name) + ", " + describe(format) + (operation.blend ? ", blended" : "") +
+                     (operation.logic_op != LogicOp::copy ? ", xor" : ""));
+        const Buffers before = run(format, [](Frame&) {});
+        const Buffers full = run(format, [&](Frame& frame) { kind.draw(frame, operation); });
         const int planes = format.color_bits + format.alpha_bits;
         const bool all_or_none = format.color_mode == ColorMode::index || format.color_bits <= 2;
         Random random(15);
         for (int turn = 0; turn < planes + 6; ++turn) {
           FragmentState masked = operation;
-          masked.plane_mask = turn < planes ? 1u << turn : turn == planes ? 0 : random.next();
+          if (turn < planes) masked.plane_mask = 1u << turn;
+          else masked.plane_mask = turn == planes ? 0 : random.next();
           if (turn > planes + 1) {
             const bool red = turn % 2 == 0;
             masked.color_mask = {red, all_or_none ? red : random.next() % 2 == 0,
@@ -179,13 +179,13 @@ TEST(Masks, ChangeTheBitsOfTheirPlanesAlone) {
             ASSERT_EQ(after.words[i], (before.words[i] & ~mask) | (full.words[i] & mask))
                 << std::hex << "mask " << mask << ": " << before.words[i] << " became " << after.words[i]
                 << ", without a mask " << full.words[i];
-          ASSERT_TRUE(after.depths == full.depths) << "depth has a mask of its own";
+          ASSERT_TRUE(after.depths == full.depths) << "color masks must not affect depth";
         }
       }
     }
 }
 
-TEST(Masks, OfDepthKeepEveryPlaneOfIt) {
+TEST(Masks, DepthMaskKeepsEveryPlaneOfDepth) {
   for (const DepthFormat depth :
        {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32, DepthFormat::float32})
     for (const int samples : {1, 4})
@@ -194,13 +194,13 @@ TEST(Masks, OfDepthKeepEveryPlaneOfIt) {
           SCOPED_TRACE(std::string(kind.name) + ", " + std::to_string(samples) + " samples");
           const FrameBufferFormat format{
               .width = kWidth, .height = kHeight, .depth = depth, .samples = samples};
-          const DepthState open{.test = Compare::always},
-              masked{.enabled = enabled, .test = Compare::always, .write = !enabled};
-          const Buffers before = run(format, [](Frame&) {}),
-                        full = run(format, [&](Frame&frame) { kind.draw(frame, {.depth = open}); });
+          const DepthState open{.test = Compare::always};
+          const DepthState masked{.enabled = enabled, .test = Compare::always, .write = !enabled};
+          const Buffers before = run(format, [](Frame&) {});
+          const Buffers full = run(format, [&](Frame& frame) { kind.draw(frame, {.depth = open}); });
           const Buffers after = run(format, [&](Frame& frame) { kind.draw(frame, {.depth = masked}); });
           ASSERT_TRUE(after.depths == before.depths);
-          ASSERT_TRUE(after.words == full.words) << "colour is written";
+          ASSERT_TRUE(after.words == full.words) << "the depth mask must not affect colour";
           ASSERT_TRUE(full.depths != before.depths);
         }
 }

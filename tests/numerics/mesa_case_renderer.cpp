@@ -1,4 +1,4 @@
-// The hard cases by Mesa: what tests/numerics/case_renderer.h describes, through OSMesa's fixed functions.
+// The hard cases in Mesa: implements tests/numerics/case_renderer.h with OSMesa's fixed functions.
 #include "tests/numerics/case_renderer.h"
 
 #include "tests/mesa/context.h"
@@ -110,9 +110,9 @@ class MesaCases : public CaseRenderer {
     const bool is_float = format_.depth == DepthFormat::float32;
     glReadPixels(0, 0, format_.width, format_.height, GL_DEPTH_COMPONENT,
                  is_float ? GL_FLOAT : GL_UNSIGNED_INT, depth.data());
-    const int bits = format_.depth == DepthFormat::unorm16   ? 16
-                     : format_.depth == DepthFormat::unorm24 ? 24
-                                                             : 32;
+    int bits = 32;
+    if (format_.depth == DepthFormat::unorm16) bits = 16;
+    if (format_.depth == DepthFormat::unorm24) bits = 24;
     picture_.depth.resize(width * height);
     for (std::size_t y = 0; y < height; ++y)
       for (std::size_t x = 0; x < width; ++x)

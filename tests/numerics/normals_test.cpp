@@ -1,5 +1,5 @@
-// Normalization at vertices and at pixels against results of long double: the largest error in units in the
-// last place (ulp) of what is exact. In quarters of all floats, so that long runs of them go side by side.
+// Normalization at vertices and at pixels against long double: the largest error in units in the last place
+// (ulp) of the exact value. All floats are split into quarters, so that long runs are parallel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,28 +30,32 @@ struct Vectors {
     for (const float x : first) {
       xyz.push_back(x);
       for (int k = 0; k < 2; ++k) {
-        const std::uint64_t bits = random(), octaves_down = (bits & 0xffff) % 40;
-        const double size = std::bit_cast<double>((1024 - octaves_down) << 52),
-                     other = x * size * (1 + static_cast<double>(bits >> 32) * 0x1p-32);
+        const std::uint64_t bits = random();
+        const std::uint64_t octaves_down = (bits & 0xffff) % 40;
+        const double size = std::bit_cast<double>((1024 - octaves_down) << 52);
+        const double other = x * size * (1 + static_cast<double>(bits >> 32) * 0x1p-32);
         xyz.push_back(static_cast<float>((bits >> 16) % 16 == 0 ? 0 : std::min(other, largest)));
       }
     }
   }
   std::array<long double, 3> unit(std::size_t i) const {
-    const long double x = xyz[3 * i], y = xyz[3 * i + 1], z = xyz[3 * i + 2],
-                      inverse = 1 / std::sqrt(x * x + y * y + z * z);
+    const long double x = xyz[3 * i];
+    const long double y = xyz[3 * i + 1];
+    const long double z = xyz[3 * i + 2];
+    const long double inverse = 1 / std::sqrt(x * x + y * y + z * z);
     return {x * inverse, y * inverse, z * inverse};
   }
 };
 
-/// A quarter of the floats from `first` to `last`.
+/// One quarter of the floats from `first` to `last`.
 static_assert(kFloatBatch % kVertexBatch == 0);
-class FunctionsNormals : public testing::TestWithParam<unsigned> {
+class Normalization : public testing::TestWithParam<unsigned> {
  protected:
-  /// @param found  makes units of so many vectors, x y z each, and puts them into three arrays
+  /// @param found normalizes a batch of vectors (x y z each) and stores the results in three arrays
   template <class Found>
   long double worst(float first, float last, const Found& found) {
-    const std::uint64_t quarter = GetParam(), all = bits_of(last) - bits_of(first) + 1;
+    const std::uint64_t quarter = GetParam();
+    const std::uint64_t all = bits_of(last) - bits_of(first) + 1;
     const auto border = [&](std::uint64_t n) {
       return static_cast<std::uint32_t>(bits_of(first) + n * all / 4);
     };
@@ -76,8 +80,9 @@ class FunctionsNormals : public testing::TestWithParam<unsigned> {
   }
 };
 
-// In double, so that squares of all floats are numbers: 3.5 roundings of 2^-53 before the one to a float.
-TEST_P(FunctionsNormals, OfVertices) {
+// Computed in double, so that the square of every float is finite: 3.5 roundings of 2^-53 before the rounding
+// to float.
+TEST_P(Normalization, AtVertices) {
   EyeTransform transform;
   for (int k = 0; k < 3; ++k) transform.normal_matrix[4 * k] = 1;
   const auto found = [&](const float* xyz, float(&unit)[3][kFloatBatch]) {
@@ -89,8 +94,7 @@ TEST_P(FunctionsNormals, OfVertices) {
                 "ulp");
 }
 
-/// A program of lights along x, y and z, whose diffuse parts are what the points' normals are, in red, green
-/// and blue.
+/// A program with lights along x, y and z, whose diffuse parts show the normal in red, green and blue.
 LightingProgram normals_as_colors() {
   std::vector<EyeLight> lights(3);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -103,9 +107,9 @@ LightingProgram normals_as_colors() {
   return program;
 }
 
-// In floats: of the squared length 3 roundings, half of which stay; of the root, its reciprocal and the
-// product one each.
-TEST_P(FunctionsNormals, OfPixels) {
+// Computed in float: 3 roundings of the squared length, half of which remain; one each of the root, its
+// reciprocal and the product.
+TEST_P(Normalization, AtPixels) {
   const LightingProgram program = normals_as_colors();
   const auto found = [&](const float* xyz, float(&unit)[3][kFloatBatch]) {
     ShadingBatch batch{};
@@ -118,7 +122,7 @@ TEST_P(FunctionsNormals, OfPixels) {
                 "ulp");
 }
 
-INSTANTIATE_TEST_SUITE_P(Quarters, FunctionsNormals, testing::Range(0u, 4u));
+INSTANTIATE_TEST_SUITE_P(Quarters, Normalization, testing::Range(0u, 4u));
 
 }  // namespace
 }  // namespace tessera::test

@@ -1,6 +1,6 @@
-// Odd numbers in a mesh's arrays, for every primitive: what is not finite drops the primitives that have it,
-// no more and no fewer, and is counted; what is finite, however large or small, is drawn, the same on every
-// instruction set. Sizes and indices that do not fit are refused when the mesh is drawn.
+// Odd numbers in a mesh's arrays, for every primitive. A non-finite value drops exactly the primitives that
+// use it, and they are counted. Finite values of any size are drawn identically on every instruction set.
+// Invalid sizes and indices are rejected by `Frame::draw`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace tessera::test {
 namespace {
 
-constexpr int kVertices = 24;  // makes whole primitives of all kinds
+constexpr int kVertices = 24;  // whole primitives of all kinds
 constexpr Primitive kPrimitives[] = {Primitive::points,       Primitive::lines,     Primitive::line_strip,
                                      Primitive::line_loop,    Primitive::triangles, Primitive::triangle_strip,
                                      Primitive::triangle_fan, Primitive::quads,     Primitive::quad_strip,
@@ -23,7 +23,7 @@ constexpr Primitive kPrimitives[] = {Primitive::points,       Primitive::lines, 
 
 using Element = std::vector<std::uint32_t>;
 
-// [GL 2.1, 2.6.1]; quads of strips in the order of their outline.
+// [GL 2.1, 2.6.1]; quads of strips in outline order.
 std::vector<Element> elements_of(Primitive primitive, std::uint32_t n) {
   std::vector<Element> elements;
   switch (primitive) {
@@ -60,16 +60,17 @@ std::vector<Element> elements_of(Primitive primitive, std::uint32_t n) {
   }
   return elements;
 }
-std::uint64_t counted(const Element& e) { return e.size() < 3 ? 1 : e.size() - 2; }  // as FrameStats has it
+// As counted in FrameStats.
+std::uint64_t counted(const Element& e) { return e.size() < 3 ? 1 : e.size() - 2; }
 
-// Everywhere in the window; but for the positions all vertices have the same, so that it does not matter how
-// what is left is drawn.
+// Vertices all over the window. All attributes but the positions are equal, so that the order of the
+// remaining primitives does not matter.
 MeshData mesh_of(Primitive primitive) {
   MeshData mesh;
   mesh.primitive = primitive;
   Random random(23);
   for (int i = 0; i < kVertices; ++i) {
-    const double angle = 6.2831853 * i / kVertices;  // around, for the polygon to be convex
+    const double angle = 6.2831853 * i / kVertices;  // on a circle, so that the polygon is convex
     const bool round = primitive == Primitive::polygon || primitive == Primitive::triangle_fan;
     for (const double c : {round ? std::cos(angle) * 0.9 : random.between(-0.9f, 0.9f),
                            round ? std::sin(angle) * 0.8 : random.between(-0.9f, 0.9f), 0.3})
@@ -96,15 +97,17 @@ Drawn draw(const MeshData& mesh, const DrawState& state, const FrameBufferFormat
   return {fingerprint(buffer), stats};
 }
 
-/// The same elements one by one, without those that have the vertex.
+/// The same elements as separate primitives, without those that use the vertex.
 MeshData without(const MeshData& mesh, std::uint32_t vertex, std::uint64_t& dropped) {
   MeshData rest = mesh;
   const std::vector<Element> elements = elements_of(mesh.primitive, kVertices);
   const std::size_t corners = elements.front().size();
-  rest.primitive = corners == 1   ? Primitive::points
-                   : corners == 2 ? Primitive::lines
-                   : corners == 3 ? Primitive::triangles
-                                  : Primitive::quads;
+  switch (corners) {
+    case 1: rest.primitive = Primitive::points; break;
+    case 2: rest.primitive = Primitive::lines; break;
+    case 3: rest.primitive = Primitive::triangles; break;
+    default: rest.primitive = Primitive::quads; break;
+  }
   dropped = 0;
   rest.indices.clear();
   for (const Element& e : elements) {
@@ -144,8 +147,7 @@ const Texture& some_texture() {
   return texture;
 }
 
-/// Calls check(state, format) for shadings, textures, polygon modes, samples and formats, one turn after the
-/// other.
+/// Calls check(state, format) for shadings, textures, polygon modes, samples and formats in turn.
 template <class Check>
 void for_each_way(const Check& check) {
   int turn = 0;
@@ -169,7 +171,7 @@ void for_each_way(const Check& check) {
         }
 }
 
-TEST(OddData, WhatIsNotFiniteDropsThePrimitivesThatHaveIt) {
+TEST(OddMeshArrays, NonFiniteValuesDropExactlyTheirPrimitives) {
   constexpr float kOdd[] = {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::quiet_NaN(),
                             std::numeric_limits<float>::signaling_NaN(),
                             std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
@@ -184,8 +186,9 @@ TEST(OddData, WhatIsNotFiniteDropsThePrimitivesThatHaveIt) {
             kOdd[random.next() % std::size(kOdd)];
         std::uint64_t dropped = 0;
         const MeshData rest = array.matters(state, format) ? without(good, vertex, dropped) : good;
-        const Drawn found = draw(bad, state, format), expected = draw(rest, state, format);
-        EXPECT_EQ(found.fingerprint, expected.fingerprint) << "what is left";
+        const Drawn found = draw(bad, state, format);
+        const Drawn expected = draw(rest, state, format);
+        EXPECT_EQ(found.fingerprint, expected.fingerprint) << "remaining primitives";
         EXPECT_EQ(found.stats.dropped_non_finite, dropped);
         if (testing::Test::HasFailure()) {
           ADD_FAILURE() << "primitive " << static_cast<int>(primitive) << ", " << array.name << " of vertex "
@@ -198,7 +201,7 @@ TEST(OddData, WhatIsNotFiniteDropsThePrimitivesThatHaveIt) {
     });
 }
 
-TEST(OddData, WhatIsFiniteIsDrawnTheSameOnEveryInstructionSet) {
+TEST(OddMeshArrays, FiniteValuesAreDrawnIdenticallyOnEveryInstructionSet) {
   std::vector<float> values = odd_values<float>();
   std::erase_if(values, [](float v) { return !std::isfinite(v); });
   Random random(25);
@@ -221,7 +224,7 @@ TEST(OddData, WhatIsFiniteIsDrawnTheSameOnEveryInstructionSet) {
               << array.name << " of primitive " << static_cast<int>(primitive) << " on " << name(set);
         }
       }
-      // Outside of where it may draw there is the clear alone.
+      // Outside the area that it may write, only the clear value remains.
       MeshData odd = mesh_of(primitive);
       for (int k = 0; k < 9; ++k)
         odd.positions[random.next() % odd.positions.size()] = values[random.next() % values.size()];
@@ -239,9 +242,9 @@ TEST(OddData, WhatIsFiniteIsDrawnTheSameOnEveryInstructionSet) {
     });
 }
 
-// Vertices at the same position share a normal; what is no number is at none, and must not be looked for
-// among all others of its kind.
-TEST(OddData, ManyVerticesThatAreNoNumbersTakeNoLonger) {
+// Vertices at equal positions share a normal. NaN positions equal none, and must not cost a search through
+// all other NaN positions each.
+TEST(OddMeshArrays, ManyNanVerticesTakeNoLonger) {
   const std::vector<float> positions(3 * 300000, std::numeric_limits<float>::quiet_NaN());
   FrameBuffer buffer({.width = 40, .height = 30});
   Frame frame(buffer);
@@ -250,10 +253,10 @@ TEST(OddData, ManyVerticesThatAreNoNumbersTakeNoLonger) {
   const FrameStats stats = Renderer({.threads = 1}).finish(frame);
   EXPECT_EQ(stats.dropped_non_finite, 100000u);
   EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 10)
-      << "a search through all of them, for each: minutes";
+      << "quadratic search over NaN positions";
 }
 
-TEST(OddData, IndicesOutOfRangeAreRefusedForEveryPrimitive) {
+TEST(OddMeshArrays, IndicesOutOfRangeAreRefusedForEveryPrimitive) {
   FrameBuffer buffer({.width = 8, .height = 8});
   for (const Primitive primitive : kPrimitives) {
     MeshData data = mesh_of(primitive);
@@ -282,21 +285,22 @@ TEST(OddData, IndicesOutOfRangeAreRefusedForEveryPrimitive) {
   }
 }
 
-// Numbers of vertices whose floats or bytes cannot be counted in 64 bits.
-TEST(OddData, SizesThatWrapAreRefused) {
+// Vertex counts whose number of floats or bytes overflows 64 bits.
+TEST(OddMeshArrays, SizesThatWrapAreRefused) {
   const std::vector<float> floats(64, 0.5f);
   FrameBuffer buffer({.width = 8, .height = 8});
   Frame frame(buffer);
-  constexpr std::size_t kQuarter = std::size_t{1} << 62, kMost = std::numeric_limits<std::size_t>::max();
-  for (const std::size_t wrong :
-       {kQuarter, kQuarter + 3, kMost, kMost / 4, kMost / 3 + 1, std::size_t{1} << 32})
+  constexpr std::size_t kQuarter = std::size_t{1} << 62;
+  constexpr std::size_t kMax = std::numeric_limits<std::size_t>::max();
+  for (const std::size_t wrong : {kQuarter, kQuarter + 3, kMax, kMax / 4, kMax / 3 + 1, std::size_t{1} << 32})
     for (const int components : {3, 4}) {
       Mesh mesh{.positions = FloatArray(floats.data(), wrong, 0), .position_components = components};
       EXPECT_TRUE(error_of([&] { frame.draw(mesh); })) << wrong << " positions of " << components;
       mesh.positions = FloatArray(floats.data(), 6, 0);
       for (int which = 0; which < 4; ++which) {
         Mesh other = mesh;
-        const FloatArray array(floats.data(), wrong, 0), more(floats.data(), wrong + 6, 0);
+        const FloatArray array(floats.data(), wrong, 0);
+        const FloatArray more(floats.data(), wrong + 6, 0);
         for (const FloatArray& odd : {array, more}) {
           if (which == 0) other.normals = odd;
           if (which == 1) other.colors.floats = odd;

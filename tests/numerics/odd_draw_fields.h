@@ -1,5 +1,5 @@
-// The rest of the table of odd_fields.h: frame buffers, cameras, draws, bitmaps, images, textures, targets
-// and renderers.
+// Rest of the table in odd_fields.h: frame buffers, cameras, draws, bitmaps, images, textures, targets and
+// renderers.
 #pragma once
 
 #include "tests/numerics/odd_fields.h"
@@ -83,7 +83,7 @@ inline void add_draw(Fields& f) {
       "mesh.primitive", kCall, [](InterfaceCase& w) { return &w.data.primitive; }, Primitive::polygon);
 }
 
-/// Strides that rows of `row` bytes cannot have: with others, memory would be read that nobody has.
+/// Strides that are too short for rows of `row` bytes; memory outside the image would be read.
 inline std::vector<std::ptrdiff_t> short_strides(std::ptrdiff_t row) { return {1, -1, row - 1, 1 - row, 2}; }
 
 inline void add_pixels(Fields& f) {
@@ -97,8 +97,10 @@ inline void add_pixels(Fields& f) {
     [[maybe_unused]] const auto& [mag, min, wrap_s, wrap_t] = s;
     [[maybe_unused]] const auto& [memory, target_width, target_height, target_stride, order, region] = i;
   };
-  constexpr const char *kBitmap = "Frame::draw_bitmap", *kImage = "Frame::draw_image", *kTexture = "Texture",
-                       *kFinish = "Renderer::finish";
+  constexpr const char* kBitmap = "Frame::draw_bitmap";
+  constexpr const char* kImage = "Frame::draw_image";
+  constexpr const char* kTexture = "Texture";
+  constexpr const char* kFinish = "Renderer::finish";
   const auto refused = [](double) { return Verdict::refused; };
   add_fragments(f, "fragments", kBitmap, [](InterfaceCase& w) -> FragmentState& { return w.fragments; });
   f.number(
@@ -167,9 +169,10 @@ inline void add_buffer_and_renderer(Fields& f) {
     [[maybe_unused]] const auto& [threads, tile_size, instruction_set, bin_memory, debug, executor, progress,
                                   log, trace] = o;
   };
-  constexpr const char *kBuffer = "FrameBuffer", *kRenderer = "Renderer";
+  constexpr const char* kBuffer = "FrameBuffer";
+  constexpr const char* kRenderer = "Renderer";
   const auto refused = [](double) { return Verdict::refused; };
-  // What fits is tried elsewhere, where what follows fits it, too.
+  // Valid values are tested elsewhere, together with matching values of the following fields.
   f.number(
       "format.width", kBuffer, [](InterfaceCase& w) { return &w.format.width; }, within(1, 16384));
   f.number(

@@ -1,6 +1,6 @@
-// The table of every number in the structs of the interface: where it stands, which values of it are refused,
-// and by which call. A struct that gets another member fails to compile here; its row belongs beside the
-// others of it.
+// Table of every number in the structs of the interface: its location, the values that are rejected, and the
+// call that rejects them. A struct that gains a member fails to compile here; add the member's row next to
+// the others of the struct.
 #pragma once
 
 #include <cstdio>
@@ -14,14 +14,14 @@ namespace tessera::test {
 
 enum class Verdict { fine, refused, either };
 
-/// One number, and the odd values that it is given.
+/// One number and the odd values it is tested with.
 struct Field {
   std::string name;
-  const char* call;  ///< that refuses it
+  const char* call;  ///< the call that rejects it
   std::size_t values = 0;
-  std::function<bool(InterfaceCase&, std::size_t)> set;  ///< false: that world has no such number
+  std::function<bool(InterfaceCase&, std::size_t)> set;  ///< returns false if the case has no such number
   std::function<Verdict(std::size_t)> verdict;
-  std::function<std::vector<std::string>(std::size_t)> found;  ///< how a message may name the value
+  std::function<std::vector<std::string>(std::size_t)> found;  ///< spellings of the value in a message
 };
 
 template <class T>
@@ -31,7 +31,7 @@ std::vector<std::string> texts_of(T value) {
   return {std::to_string(value), shortest};
 }
 
-/// @param at  InterfaceCase& -> T*, null where that world has none
+/// @param at InterfaceCase& -> T*, null if the case has no such number
 template <class T, class At, class Rule>
 Field field(std::string name, const char* call, const At& at, const Rule& rule,
             const std::vector<T>& values) {
@@ -65,7 +65,7 @@ class Fields {
               const std::vector<NumberAt<At>>& values) {
     all.push_back(field<NumberAt<At>>(name, call, at, rule, values));
   }
-  /// Each of several numbers, side by side.
+  /// Several numbers, each in turn.
   template <class At, class Rule>
   void numbers(const std::string& name, const char* call, int count, const At& at, const Rule& rule) {
     for (int i = 0; i < count; ++i)
@@ -87,7 +87,7 @@ class Fields {
         },
         rule);
   }
-  /// An enumeration: what lies beyond its last value.
+  /// An enumeration: values beyond its last enumerator.
   template <class At>
   void choice(const std::string& name, const char* call, const At& at, NumberAt<At> last) {
     using Enum = NumberAt<At>;
@@ -119,7 +119,7 @@ inline Verdict above_zero(double v) { return std::isfinite(v) && v > 0 ? Verdict
 inline auto within(double low, double high) {
   return [=](double v) { return v >= low && v <= high ? Verdict::fine : Verdict::refused; };
 }
-/// Refused where it is not finite; where it is, there may be no shadow.
+/// Rejected if not finite; finite values may yield a degenerate shadow.
 inline Verdict finite_for_shadow(double v) { return std::isfinite(v) ? Verdict::either : Verdict::refused; }
 inline Verdict cutoff(double v) { return v == 180 ? Verdict::fine : within(0, 90)(v); }
 inline Verdict not_negative(double v) { return v >= 0 ? Verdict::fine : Verdict::refused; }
@@ -225,7 +225,7 @@ inline void add_clear_and_accum(Fields& f) {
       [](InterfaceCase& w) { return w.accum ? &w.accum->scissor : nullptr; }, anything, not_negative);
 }
 
-/// What draws, bitmaps and images have in common.
+/// Fields that draws, bitmaps and images have in common.
 template <class StateAt>
 void add_fragments(Fields& f, const std::string& name, const char* call, const StateAt& at) {
   [[maybe_unused]] const auto know = [](const FragmentState& s, const DepthState& d, const AlphaTest& a,
@@ -251,7 +251,9 @@ void add_fragments(Fields& f, const std::string& name, const char* call, const S
     const std::string face_name = name + (back ? ".stencil.back" : ".stencil.front");
     const auto face = [at, back](InterfaceCase& w) -> StencilFace* {
       auto& stencil = at(w).stencil;
-      return !stencil ? nullptr : !back ? &stencil->front : stencil->back ? &*stencil->back : nullptr;
+      if (!stencil) return nullptr;
+      if (!back) return &stencil->front;
+      return stencil->back ? &*stencil->back : nullptr;
     };
     const auto part = [face](auto member) {
       return [face, member](InterfaceCase& w) {

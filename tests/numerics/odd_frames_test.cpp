@@ -1,5 +1,5 @@
-// Frames in which many numbers are odd at a time: fields of the table of odd_fields.h and numbers of the
-// mesh, any of them. The same on every instruction set and tile size, shaded at once or later.
+// Frames with many odd numbers at a time: random fields of the table in odd_fields.h and random mesh values.
+// The result is identical on every instruction set and tile size, with immediate and deferred shading.
 #include <gtest/gtest.h>
 
 #include "tests/numerics/odd_draw_fields.h"
@@ -8,7 +8,7 @@
 namespace tessera::test {
 namespace {
 
-// Any exponent that a number of its type can have.
+// A number with any exponent that its type allows.
 double of_any_size(Random& random, int lowest, int highest) {
   const double size =
       std::ldexp(1.0 + random.between(0, 1),
@@ -38,7 +38,8 @@ TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
     return f.name.starts_with("format.") || f.name.starts_with("options.") || f.name.starts_with("target.") ||
            f.name.starts_with("texture.");
   });
-  std::size_t finished = 0, rounds = long_tests() ? 40000 : 600;
+  std::size_t finished = 0;
+  std::size_t rounds = long_tests() ? 40000 : 600;
   constexpr std::size_t kWrongOnce = 26531;
   for (std::size_t n = 0; n <= rounds; ++n) {
     const std::size_t round = n < rounds ? n : kWrongOnce;

@@ -1,5 +1,5 @@
-// Indices beyond the vertices, in draws that can change something and in ones that cannot: refused when they
-// are drawn, and the frame is as it was.
+// Out-of-range indices, in draws that can change something and in draws that cannot, are rejected by
+// `Frame::draw`, and the frame is unchanged.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -19,12 +19,12 @@ const FrameBufferFormat kFormat{.width = 24, .height = 20};
 MeshData mesh_of(Primitive primitive, std::uint32_t wrong) {
   MeshData mesh = rectangle(-0.5f, -0.5f, 0.5f, 0.5f);
   mesh.primitive = primitive;
-  mesh.indices = {0,     wrong, 1, 2, 3, wrong,
-                  wrong, wrong, 3, 0, 2, wrong};  // makes whole primitives of all kinds
+  // Whole primitives of all kinds.
+  mesh.indices = {0, wrong, 1, 2, 3, wrong, wrong, wrong, 3, 0, 2, wrong};
   return mesh;
 }
 
-TEST(OddIndices, AreRefusedWhateverTheDrawWouldChange) {
+TEST(OddIndices, AreRejectedWhateverTheDrawWouldChange) {
   const auto no_depth = [](DrawState& s) { s.depth.write = false; };
   const Way ways[] = {{"colour", [](DrawState&) {}},
                       {"depth alone",

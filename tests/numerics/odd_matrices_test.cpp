@@ -1,5 +1,5 @@
-// Odd numbers in the helpers that make matrices, one and two at a time: an error, or a matrix of finite
-// numbers. Those that do not compute, and products, have no errors: what takes a matrix has.
+// Odd numbers in the matrix helpers, one and two at a time: an error, or a matrix of finite numbers. Helpers
+// that only place numbers, and products, report no errors; the calls that take a matrix do.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -89,11 +89,11 @@ void expect_error_or_finite(const Helper& helper, const Numbers& numbers) {
 
 std::vector<double> values() {
   std::vector<double> all = odd_values<double>();
-  for (const float v : odd_values<float>()) all.push_back(v);  // what a light's position can be
+  for (const float v : odd_values<float>()) all.push_back(v);  // possible values of a light's position
   return all;
 }
 
-TEST(OddMatrices, OfOneOddNumberAreErrorsOrFinite) {
+TEST(OddMatrices, OneOddNumberIsAnErrorOrFinite) {
   for (const Helper& helper : helpers())
     for (std::size_t i = 0; i < helper.plain.size(); ++i)
       for (const double odd : values()) {
@@ -102,11 +102,11 @@ TEST(OddMatrices, OfOneOddNumberAreErrorsOrFinite) {
         expect_error_or_finite(helper, numbers);
         if (!std::isnan(odd)) continue;
         EXPECT_TRUE(error_of([&] { helper.make(numbers); }))
-            << helper.name << ", number " << i << " is not a number";
+            << helper.name << ", argument " << i << " is NaN";
       }
 }
 
-TEST(OddMatrices, OfTwoOddNumbersAreErrorsOrFinite) {
+TEST(OddMatrices, TwoOddNumbersAreErrorsOrFinite) {
   for (const Helper& helper : helpers())
     for (std::size_t i = 0; i < helper.plain.size(); ++i)
       for (std::size_t j = i + 1; j < helper.plain.size(); ++j)
@@ -119,8 +119,8 @@ TEST(OddMatrices, OfTwoOddNumbersAreErrorsOrFinite) {
           }
 }
 
-// All of them the same, large or small: what a scene in other units has.
-TEST(OddMatrices, OfNumbersInAnyUnitAreErrorsOrFinite) {
+// All numbers scaled alike, as in a scene with other units.
+TEST(OddMatrices, NumbersInAnyUnitAreErrorsOrFinite) {
   for (const Helper& helper : helpers())
     for (int exponent = -1074; exponent < 1024; exponent += 7) {
       Numbers numbers = helper.plain;
@@ -130,7 +130,7 @@ TEST(OddMatrices, OfNumbersInAnyUnitAreErrorsOrFinite) {
     }
 }
 
-TEST(OddMatrices, OfPicturesWithoutPixelsAreErrors) {
+TEST(OddMatrices, PicturesWithoutPixelsAreErrors) {
   for (const int size : odd_values<int>())
     for (const bool wide : {false, true}) {
       const auto make = [&] {
@@ -140,7 +140,7 @@ TEST(OddMatrices, OfPicturesWithoutPixelsAreErrors) {
     }
 }
 
-TEST(OddMatrices, OfAxesThatThereAreNoneOfAreErrors) {
+TEST(OddMatrices, ZeroAxesAreErrors) {
   for (const int odd : {2, 127, 255})
     EXPECT_THAT(error_of([&] {
                   calibrated_camera({333, 313, 100, 77, 201, 151}, {}, 0.1, 33, static_cast<CameraAxes>(odd));
@@ -148,12 +148,15 @@ TEST(OddMatrices, OfAxesThatThereAreNoneOfAreErrors) {
                 testing::HasSubstr("axes is " + std::to_string(odd)));
 }
 
-// Each number in its own place, to the bit, and nothing else changed.
-TEST(OddMatrices, OfTranslationsAndScalesHoldTheNumbersThemselves) {
+// Each number is stored bit for bit in its place, and nothing else changes.
+TEST(OddMatrices, TranslationsAndScalesHoldTheExactNumbers) {
   const std::vector<double> odd = values();
   for (std::size_t i = 0; i < odd.size(); ++i) {
-    const double x = odd[i], y = odd[(i + 7) % odd.size()], z = odd[(i + 19) % odd.size()];
-    Matrix moved, stretched;
+    const double x = odd[i];
+    const double y = odd[(i + 7) % odd.size()];
+    const double z = odd[(i + 19) % odd.size()];
+    Matrix moved;
+    Matrix stretched;
     moved.m[3] = stretched.m[0] = x, moved.m[7] = stretched.m[5] = y, moved.m[11] = stretched.m[10] = z;
     const auto bits = [](const Matrix& matrix) {
       return std::bit_cast<std::array<std::uint64_t, 16>>(matrix.m);
@@ -163,25 +166,29 @@ TEST(OddMatrices, OfTranslationsAndScalesHoldTheNumbersThemselves) {
   }
 }
 
-// Each element is the sum of its four products: a NaN where one of them is or infinities differ, infinite
-// where one is, else within its roundings. (Where sizes of finite products sum up to more than a number can
-// be, what comes out is a matter of their order.)
-TEST(OddMatrices, OfProductsAreWhatTheNumbersComeTo) {
+// Each element is the sum of its four products: NaN if a product is NaN or infinities of both signs meet,
+// infinite if a product is, else within its roundings. (If the sum of the finite magnitudes overflows, the
+// result depends on the order and is not checked.)
+TEST(OddMatrices, ProductsAreSumsWithinTheirRoundings) {
   const std::vector<double> odd = values();
   Random random(24);
-  std::size_t numbers = 0, infinite = 0, not_numbers = 0;
+  std::size_t numbers = 0;
+  std::size_t infinite = 0;
+  std::size_t not_numbers = 0;
   for (int n = 0; n < 20000; ++n) {
-    Matrix left, right;
+    Matrix left;
+    Matrix right;
     for (Matrix* const matrix : {&left, &right})
       for (double& element : matrix->m)
         element = random.next() % 8 == 0 ? odd[random.next() % odd.size()] : random.between(-3, 3);
     const Matrix product = left * right;
     for (std::size_t at = 0; at < 16; ++at) {
-      long double sum = 0, sizes = 0;
+      long double sum = 0;
+      long double sizes = 0;
       for (std::size_t k = 0; k < 4; ++k) {
         const long double term = static_cast<long double>(left.m[at / 4 * 4 + k]) *
                                  static_cast<long double>(right.m[4 * k + at % 4]);
-        const double product_of_two = static_cast<double>(term);  // beyond the doubles' range it is infinite
+        const double product_of_two = static_cast<double>(term);  // infinite beyond the range of doubles
         sum += product_of_two;
         if (std::isfinite(product_of_two)) sizes += std::abs(term);
       }

@@ -1,5 +1,5 @@
-// What frame buffers are asked for by odd numbers: distances by any projection, whatever background, planes
-// of no buffer. An error that names what was found, or the formula's distances.
+// Reading frame buffers with odd arguments: distances for any projection and background, planes of absent
+// buffers. The result is an error that names the value found, or the distances of the formula.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDepths[] = {0, 0x1p-140, 1e-9, 0.1, 0.25, 0.5, 0.75, 0.9999, 1};
 constexpr int kColumns = static_cast<int>(std::size(kDepths));
 
-/// Each of the depths in a pixel of its own, as it is stored.
+/// A buffer that stores each depth in its own pixel.
 struct Depths {
   FrameBuffer buffer;
   std::vector<Real> stored;
@@ -53,39 +53,45 @@ std::vector<Camera> cameras() {
           {.projection = orthographic(-1, 3, -2, 2, -2, 33, true), .reversed = true}};
 }
 
-// z of the eye solves (a z + b) / (c z + e) = depth; its distance is -z. Products and differences are of
-// doubles.
+// The eye-space z solves (a z + b) / (c z + e) = depth; the distance is -z. Products and differences are
+// computed in double.
 void expect_distances(const Depths& depths, const Camera& camera, const std::vector<float>& found,
                       const std::string& where) {
   const auto& m = camera.projection.m;
-  const Real a = m[10], b = m[11], c = m[14], e = m[15];
+  const Real a = m[10];
+  const Real b = m[11];
+  const Real c = m[14];
+  const Real e = m[15];
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (depths.stored[i] == (camera.reversed ? 0 : 1)) {
       EXPECT_EQ(found[i], -1) << where;
       continue;
     }
     ASSERT_FALSE(std::isnan(found[i])) << where;
-    const Real z = camera.reversed ? depths.stored[i] : 2 * depths.stored[i] - 1, over = e * z - b,
-               under = c * z - a;
-    const Real over_off = 0x1p-51L * (std::abs(e) + std::abs(b)),
-               under_off = 0x1p-51L * (std::abs(c) + std::abs(a));
-    if (!(std::abs(under) > 2 * under_off)) continue;  // as far away as roundings have it
-    const Real exact = over / under, off = 0x1p-24L * std::abs(exact) +
-                                           2 * (over_off + std::abs(exact) * under_off) / std::abs(under) +
-                                           0x1p-149L;
-    if (std::abs(exact) + off > 0x1p127L) continue;  // next to what a float can be, or beyond
+    const Real z = camera.reversed ? depths.stored[i] : 2 * depths.stored[i] - 1;
+    const Real over = e * z - b;
+    const Real under = c * z - a;
+    const Real over_off = 0x1p-51L * (std::abs(e) + std::abs(b));
+    const Real under_off = 0x1p-51L * (std::abs(c) + std::abs(a));
+    if (!(std::abs(under) > 2 * under_off)) continue;  // within rounding of infinity
+    const Real exact = over / under;
+    const Real off = 0x1p-24L * std::abs(exact) +
+                     2 * (over_off + std::abs(exact) * under_off) / std::abs(under) + 0x1p-149L;
+    if (std::abs(exact) + off > 0x1p127L) continue;  // near the largest float, or beyond
     EXPECT_LE(std::abs(found[i] - exact), off) << where << ", depth " << depths.stored[i];
   }
 }
 
-// Elements that have no say in depth may be any finite numbers; those of x and y in depth must be 0.
-TEST(OddReading, DistancesByOddProjectionsAreErrorsOrTheFormulas) {
+// Matrix elements that do not affect depth may be any finite numbers; those of x and y in depth must be 0.
+TEST(OddReading, DistancesUnderOddProjectionsAreErrorsOrMatchTheFormula) {
   const std::vector<double> odd = odd_values<double>();
-  std::size_t read = 0, refused = 0, turn = 0;
+  std::size_t read = 0;
+  std::size_t refused = 0;
+  std::size_t turn = 0;
   for (const DepthFormat format : {DepthFormat::unorm24, DepthFormat::float32}) {
     const Depths depths(format);
     for (const Camera& plain : cameras()) {
-      ++turn;  // other pairs with each
+      ++turn;  // other pairs in each case
       for (std::size_t i = 0; i < 16; ++i)
         for (std::size_t j = i; j < 16; ++j)
           for (const double first : odd) {
@@ -93,8 +99,8 @@ TEST(OddReading, DistancesByOddProjectionsAreErrorsOrTheFormulas) {
             camera.projection.m[i] = first;
             camera.projection.m[j] = j == i ? first : odd[(i + 3 * j + turn++) % odd.size()];
             const auto& m = camera.projection.m;
-            const bool finite = std::all_of(m.begin(), m.end(), [](double v) { return std::isfinite(v); }),
-                       straight = m[8] == 0 && m[9] == 0 && m[12] == 0 && m[13] == 0;
+            const bool finite = std::all_of(m.begin(), m.end(), [](double v) { return std::isfinite(v); });
+            const bool straight = m[8] == 0 && m[9] == 0 && m[12] == 0 && m[13] == 0;
             std::optional<std::vector<float>> found;
             const std::string message = error_of([&] { found = depths.distances(camera); }).value_or("");
             const std::string where = "elements " + std::to_string(i) + " and " + std::to_string(j) + ": " +
@@ -103,7 +109,7 @@ TEST(OddReading, DistancesByOddProjectionsAreErrorsOrTheFormulas) {
               ++refused;
               const Real ae = Real{m[10]} * m[15], bc = Real{m[11]} * m[14];
               const bool alike = std::abs(ae - bc) <= 0x1p-49L * (std::abs(ae) + std::abs(bc));
-              // Products of numbers 2^1000 times as small as the largest are 0.
+              // Products of numbers 2^1000 times smaller than the largest are 0.
               const Real largest =
                   std::max({std::abs(m[10]), std::abs(m[11]), std::abs(m[14]), std::abs(m[15])});
               EXPECT_TRUE(!finite || !straight || alike || std::abs(ae - bc) < 0x1p-1000L * largest * largest)
@@ -122,7 +128,7 @@ TEST(OddReading, DistancesByOddProjectionsAreErrorsOrTheFormulas) {
   EXPECT_GT(refused, 10000u);
 }
 
-TEST(OddReading, DistancesOfOneForAllDepthsAreErrors) {
+TEST(OddReading, ProjectionsWithoutDepthAreErrors) {
   const Depths depths(DepthFormat::unorm24);
   const auto error = [&](double a, double b, double c, double e) {
     Camera camera;
@@ -142,8 +148,7 @@ TEST(OddReading, DistancesOfOneForAllDepthsAreErrors) {
   EXPECT_THAT(error_of([&] { depths.distances(oblique); }).value_or(""), testing::HasSubstr("0.25, 0,"));
 }
 
-// A projection is as good as any multiple of it; the view has no say; the background is what it is, to the
-// bit.
+// A projection can be scaled; the view does not matter; the background is returned bit for bit.
 TEST(OddReading, DistancesDependOnNothingElse) {
   for (const DepthFormat format : {DepthFormat::unorm24, DepthFormat::float32}) {
     const Depths depths(format);
@@ -169,7 +174,7 @@ TEST(OddReading, DistancesDependOnNothingElse) {
   }
 }
 
-TEST(OddReading, WhatIsNoBufferHasNoPlanes) {
+TEST(OddReading, InvalidBuffersHaveNoPlanes) {
   FrameBuffer buffer({.width = 40, .height = 30, .accumulation_bits = 16});
   for (const Buffer which : {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation}) {
     buffer.plane(which, 0);

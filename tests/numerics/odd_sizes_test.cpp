@@ -1,5 +1,5 @@
-// Frame buffers of the smallest, the largest and crooked sizes: what is drawn is what a larger buffer shows
-// there, and planes, words, read-back and scan-out agree to the bit.
+// Frame buffers of the smallest, the largest and odd sizes: the picture equals that part of a larger buffer,
+// and planes, packed colors, read-back and scan-out agree bit for bit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,18 +18,20 @@ struct Size {
 constexpr Size kSizes[] = {{1, 1},   {1, 16384}, {16384, 1}, {2, 3},    {3, 16383}, {16383, 2},
                            {31, 33}, {63, 65},   {129, 127}, {1, 4097}, {257, 1}};
 
-/// Draws of every kind under a viewport that is larger than any of the buffers in one direction, so that each
-/// shows its lower left part of it.
+/// Draws of every kind. The viewport is larger than any of the buffers in one direction, so each buffer shows
+/// its lower left part.
 struct Scene {
   Rect viewport;
-  MeshData mesh, lines, points;
+  MeshData mesh;
+  MeshData lines;
+  MeshData points;
   std::vector<std::uint8_t> bytes;
 
   explicit Scene(Size size) : viewport{0, 0, std::max(size.width, 40), std::max(size.height, 40)} {
     Random random(11);
     for (int i = 0; i < 60; ++i)
       for (int k = 0; k < 3; ++k) {
-        // Near the lower left corner, and along the whole of the long side.
+        // Near the lower left corner, and along the whole long side.
         mesh.positions.insert(mesh.positions.end(), {random.between(-1.2f, i % 2 == 0 ? 1.2f : -0.9f),
                                                      random.between(-1.2f, i % 3 == 0 ? 1.2f : -0.9f),
                                                      random.between(-0.9f, 0.9f)});
@@ -112,14 +114,14 @@ void expect_planes(const FrameBuffer& buffer, Buffer which, const std::vector<Wo
   }
 }
 
-/// Into memory with a margin, whose rows go up where `upwards`; what lies outside of the part keeps its
-/// value.
+/// Scans out into memory with a margin; rows go up if `upwards`. Memory outside the region keeps its value.
 std::vector<std::uint8_t> shown(const FrameBuffer& buffer, PixelOrder order, bool upwards,
                                 const std::optional<Rect>& part,
                                 const std::function<void(const ImageTarget&)>& write) {
   const int width = buffer.format().width, height = buffer.format().height;
   const std::ptrdiff_t stride = 4 * std::ptrdiff_t{width} + 12;
-  std::vector<std::uint8_t> memory(static_cast<std::size_t>(stride * height), 0xcd), rows;
+  std::vector<std::uint8_t> memory(static_cast<std::size_t>(stride * height), 0xcd);
+  std::vector<std::uint8_t> rows;
   write({.pixels = memory.data() + (upwards ? stride * (height - 1) : 0),
          .width = width,
          .height = height,
@@ -130,7 +132,7 @@ std::vector<std::uint8_t> shown(const FrameBuffer& buffer, PixelOrder order, boo
     const auto row = memory.begin() + stride * (upwards ? height - 1 - y : y);
     rows.insert(rows.end(), row, row + 4 * width);
     EXPECT_TRUE(std::all_of(row + 4 * width, row + stride, [](std::uint8_t b) { return b == 0xcd; }))
-        << "beside row " << y;
+        << "margin next to row " << y;
   }
   return rows;
 }
@@ -141,8 +143,10 @@ TEST(OddSizes, PlanesWordsReadBackAndScanOutAgree) {
     for (const FrameBufferFormat& format : formats(size)) {
       SCOPED_TRACE(std::to_string(size.width) + "x" + std::to_string(size.height) + ", " + describe(format));
       Renderer renderer({.threads = 1});
-      FrameBuffer buffer(format), presented(format);
-      Frame frame(buffer), shown_frame(presented);
+      FrameBuffer buffer(format);
+      FrameBuffer presented(format);
+      Frame frame(buffer);
+      Frame shown_frame(presented);
       scene.record(frame, format);
       renderer.finish(frame);
       const auto words = packed_colors(buffer);
@@ -158,14 +162,14 @@ TEST(OddSizes, PlanesWordsReadBackAndScanOutAgree) {
           const auto scanned = shown(presented, order, upwards, {}, [&](const ImageTarget& target) {
             renderer.finish(shown_frame, target);
           });
-          ASSERT_TRUE(read == scanned) << "read back and scanned out";
+          ASSERT_TRUE(read == scanned) << "read-back and scan-out differ";
           std::vector<std::uint8_t> turned = read;
           if (order == PixelOrder::bgra8)
             for (std::size_t i = 0; i < turned.size(); i += 4) std::swap(turned[i], turned[i + 2]);
           if (expected.empty()) expected = turned;
-          ASSERT_TRUE(turned == expected) << "another order of bytes or rows";
+          ASSERT_TRUE(turned == expected) << "another byte or row order differs";
         }
-      // A part of it: the same there, nothing elsewhere.
+      // A region: the same pixels inside, nothing written outside.
       const Rect part{size.width / 3, size.height / 2, size.width / 2 + 1, size.height / 3 + 1};
       const auto some = shown(buffer, PixelOrder::rgba8, true, part,
                               [&](const ImageTarget& target) { buffer.read_color(target); });
@@ -180,26 +184,27 @@ TEST(OddSizes, PlanesWordsReadBackAndScanOutAgree) {
                c < 4; ++c)
             ASSERT_EQ(some[i + c], inside ? expected[i + c] : 0xcd) << x << ", " << y;
         }
-      // Stored levels are shown as the palette or the split of the bits says; without alpha planes alpha is
-      // 255.
+      // Stored levels are displayed through the palette or the bit split; without alpha planes alpha is 255.
       if (format.color_mode != ColorMode::rgb || format.color_bits <= 2 || format.alpha_bits == 8) continue;
       for (std::size_t i = 0; i < words.size(); ++i) ASSERT_EQ(expected[4 * i + 3], 255);
     }
   }
 }
 
-// The same scene in a buffer that is larger to the right and upwards has the same bits there.
-TEST(OddSizes, ShowWhatALargerBufferShowsThere) {
+// In a buffer that is larger to the right and upwards the same scene has the same bits there.
+TEST(OddSizes, MatchTheSamePartOfALargerBuffer) {
   for (const Size size : kSizes) {
     const Scene scene(size);
     const Size larger{std::max(size.width, 40), std::max(size.height, 40)};
-    const auto smalls = formats(size), larges = formats(larger);
+    const auto smalls = formats(size);
+    const auto larges = formats(larger);
     for (std::size_t f = 0; f < smalls.size(); ++f) {
       SCOPED_TRACE(std::to_string(size.width) + "x" + std::to_string(size.height) + ", " +
                    describe(smalls[f]));
       for (const int tile_size : {32, 128}) {
         Renderer renderer({.threads = 1, .tile_size = tile_size});
-        FrameBuffer small(smalls[f]), large(larges[f]);
+        FrameBuffer small(smalls[f]);
+        FrameBuffer large(larges[f]);
         for (FrameBuffer* buffer : {&small, &large}) {
           Frame frame(*buffer);
           scene.record(frame, buffer->format());

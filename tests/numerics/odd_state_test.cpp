@@ -1,6 +1,6 @@
-// Every number of every struct of the interface is given every odd value: either the call that takes it
-// refuses it, and says what it found, or there is a picture, the same on every instruction set, that changed
-// nothing outside of what may change.
+// Every number of every struct of the interface takes every odd value. Either the call rejects it and names
+// the value, or the picture is identical on every instruction set and nothing outside the permitted area
+// changes.
 #include <gtest/gtest.h>
 
 #include "tests/numerics/odd_draw_fields.h"
@@ -9,12 +9,15 @@
 namespace tessera::test {
 namespace {
 
-// Where neither draw nor image nor accumulation may write, the clear alone may have been; where that was not,
-// what a new buffer holds.
+// Expects pixels that neither draw nor image nor accumulation may write to hold the clear value, or outside
+// the clear's scissor the initial value.
 void expect_nothing_outside(const InterfaceCase& w, const Outcome& outcome) {
   if (w.accum && w.accum->op == AccumOp::return_color) return;
   const int width = w.format.width, height = w.format.height;
-  std::optional<std::uint32_t> cleared, uncleared, far_cleared, far_uncleared;
+  std::optional<std::uint32_t> cleared;
+  std::optional<std::uint32_t> uncleared;
+  std::optional<std::uint32_t> far_cleared;
+  std::optional<std::uint32_t> far_uncleared;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       if (contains(w.state.viewport, x, y) && contains(w.state.scissor, x, y)) continue;
@@ -38,7 +41,7 @@ void expect_named(const Field& field, std::size_t value, const std::string& mess
   const std::vector<std::string> texts = field.found(value);
   EXPECT_TRUE(std::any_of(texts.begin(), texts.end(),
                           [&](const std::string& text) { return message.find(text) != std::string::npos; }))
-      << "\"" << message << "\" does not say \"" << texts.front() << "\"";
+      << "the message \"" << message << "\" does not name \"" << texts.front() << "\"";
 }
 
 void expect_refusal_or_picture(const Field& field, std::size_t value, const InterfaceCase& world) {
@@ -49,14 +52,14 @@ void expect_refusal_or_picture(const Field& field, std::size_t value, const Inte
     const Verdict verdict = field.verdict(value);
     const Outcome outcome = run(copy, set);
     const bool is_refused = !outcome.refused_by.empty();
-    // A shadow may be too far away for numbers, whoever moved it there.
+    // A shadow may be rejected as too far away, whichever field moved it.
     const bool is_about_shadow = copy.state.shadow_on && outcome.refused_by == "Frame::draw" &&
                                  outcome.message.find("shadow") != std::string::npos;
     if (is_refused && !is_about_shadow) {
       EXPECT_EQ(outcome.refused_by, field.call) << outcome.message;
     }
     if (verdict == Verdict::refused) {
-      EXPECT_TRUE(is_refused) << "is taken";
+      EXPECT_TRUE(is_refused) << "is accepted";
       if (is_refused && outcome.refused_by == field.call) expect_named(field, value, outcome.message);
     } else if (is_refused) {
       EXPECT_TRUE(verdict == Verdict::either || is_about_shadow) << outcome.message;
@@ -71,10 +74,11 @@ void expect_refusal_or_picture(const Field& field, std::size_t value, const Inte
   }
 }
 
-// Each value in two of the worlds, or in all.
-TEST(OddState, IsRefusedOrDrawn) {
+// Each value in two of the cases, or in all.
+TEST(OddState, EveryOddValueIsRejectedOrDrawn) {
   const std::vector<InterfaceCase> all = interface_cases();
-  std::size_t turn = 0, pairs = 0;
+  std::size_t turn = 0;
+  std::size_t pairs = 0;
   for (const Field& field : all_fields()) {
     std::vector<const InterfaceCase*> with;
     for (const InterfaceCase& world : all) {
@@ -94,20 +98,20 @@ TEST(OddState, IsRefusedOrDrawn) {
   EXPECT_GT(pairs, 10000u);
 }
 
-TEST(OddState, IsNotLookedForInVain) {
+TEST(OddState, EveryFieldOccursInSomeCase) {
   std::size_t somewhere = 0;
   for (const Field& field : all_fields()) {
     std::size_t with = 0;
     for (InterfaceCase& world : interface_cases()) with += field.set(world, 0);
     somewhere += with > 0;
     EXPECT_TRUE(with > 0 || field.name.starts_with("fragments."))
-        << field.name << " is in none of the worlds";
+        << field.name << " occurs in none of the cases";
   }
   EXPECT_GT(somewhere, 250u);
 }
 
-// Unchanged, each world is drawn, the same on every instruction set, and there is something to see.
-TEST(OddState, BeginsWithPictures) {
+// Unchanged, each case draws a non-empty picture, identical on every instruction set.
+TEST(OddState, UnchangedCasesDrawPictures) {
   for (const InterfaceCase& world : interface_cases()) {
     SCOPED_TRACE(world.name);
     std::optional<Outcome> first;
@@ -123,10 +127,10 @@ TEST(OddState, BeginsWithPictures) {
   }
 }
 
-/// Says that it has any number of workers, and does the work itself.
-class Boaster : public Executor {
+/// Reports `workers` workers and runs all of them serially on the calling thread.
+class SerialExecutor : public Executor {
  public:
-  explicit Boaster(int workers) : workers_(workers) {}
+  explicit SerialExecutor(int workers) : workers_(workers) {}
   int workers() const noexcept override { return workers_; }
   void run(int count, void (*work)(void*, int), void* context) override {
     for (int k = 0; k < count; ++k) work(context, k);
@@ -136,12 +140,12 @@ class Boaster : public Executor {
   int workers_;
 };
 
-// As many as are asked for are taken, but no more than can be asked for.
-TEST(OddState, OfExecutorsTakesNoMemoryForWorkersBeyondTheMost) {
+// Large worker counts are accepted up to the maximum, and use no memory for workers beyond it.
+TEST(OddState, ExecutorsUseNoMemoryBeyondTheMaximumWorkerCount) {
   for (const int workers : odd_values<int>()) {
     std::optional<Renderer> renderer;
-    const auto error =
-        error_of([&] { renderer.emplace(RendererOptions{.executor = std::make_shared<Boaster>(workers)}); });
+    const auto error = error_of(
+        [&] { renderer.emplace(RendererOptions{.executor = std::make_shared<SerialExecutor>(workers)}); });
     EXPECT_EQ(error.has_value(), workers < 1) << workers;
     if (!renderer) continue;
     EXPECT_EQ(renderer->options().threads, std::min(workers, 1024));

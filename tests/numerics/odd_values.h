@@ -1,5 +1,5 @@
-// Numbers that no picture needs and every caller may hand over: what is not finite, denormals, -0, and the
-// ends of each type's range.
+// Numbers that no picture needs but any caller may pass: non-finite values, denormals, -0, and the ends of
+// each type's range.
 #pragma once
 
 #include <bit>
@@ -11,7 +11,7 @@
 
 namespace tessera::test {
 
-/// All of them, of a type of floats or integers.
+/// All odd values of a floating-point or integer type.
 template <class T>
 std::vector<T> odd_values() {
   using Limits = std::numeric_limits<T>;

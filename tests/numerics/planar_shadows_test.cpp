@@ -1,6 +1,5 @@
-// Shadows that are hardly cast: lights nearly in the plane, nearly parallel to it, very far away; planes of
-// huge and tiny coefficients. Either there is none, and draws say so, or the matrix takes points to the
-// plane.
+// Degenerate planar shadows: lights nearly in the plane, nearly parallel to it, or very far away; planes with
+// huge and tiny coefficients. Either the draw is rejected, or the matrix maps points onto the plane.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,7 +13,8 @@
 namespace tessera::test {
 namespace {
 
-constexpr Real kDouble = 0x1p-53L, kLongDouble = 0x1p-64L;
+constexpr Real kDouble = 0x1p-53L;
+constexpr Real kLongDouble = 0x1p-64L;
 using Real4 = std::array<Real, 4>;
 
 Real dot(const Real4& a, const Real4& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
@@ -26,7 +26,7 @@ struct Shadow {
 
   Real4 p() const { return {plane[0], plane[1], plane[2], plane[3]}; }
   Real4 l() const { return {light.position[0], light.position[1], light.position[2], light.position[3]}; }
-  /// p.l over what is added up for it: 0 where there is no shadow.
+  /// p.l relative to the magnitudes of its terms: 0 where there is no shadow.
   Real slope() const { return std::abs(dot(p(), l())) / dot(magnitudes(p()), magnitudes(l())); }
   std::optional<Matrix> matrix() const {
     try {
@@ -37,15 +37,20 @@ struct Shadow {
   }
 };
 
-// x goes to x - l (p.x) / (p.l). An element of the matrix multiplies l and p and divides by p.l (2
-// roundings), which is 4 roundings of its terms off, and subtracts that from 1 or 0 (another). Of each
-// product with the point that much; and what long double itself rounds.
+// x goes to x - l (p.x) / (p.l). A matrix element multiplies l and p and divides by p.l (2 roundings): 4
+// roundings of its terms; subtracting from 1 or 0 adds another. Each product with the point adds as much, and
+// long double has its own roundings.
 Real worst_error(const Shadow& shadow, const Matrix& m, const Real4& x) {
   const Real4 p = shadow.p(), l = shadow.l();
-  const Real product = dot(p, l), condition = 1 / shadow.slope();
-  Real worst = 0, from_plane = 0, from_plane_allowed = 0;
+  const Real product = dot(p, l);
+  const Real condition = 1 / shadow.slope();
+  Real worst = 0;
+  Real from_plane = 0;
+  Real from_plane_allowed = 0;
   for (std::size_t r = 0; r < 4; ++r) {
-    Real at = 0, exact = x[r], allowed = 0;
+    Real at = 0;
+    Real exact = x[r];
+    Real allowed = 0;
     for (std::size_t c = 0; c < 4; ++c) {
       const Real removed = l[r] * p[c] / product;
       at += m.m[4 * r + c] * x[c];
@@ -62,7 +67,7 @@ Real worst_error(const Shadow& shadow, const Matrix& m, const Real4& x) {
   return worst;
 }
 
-// Between light and plane, and beyond the plane.
+// Between light and plane, or beyond the plane.
 Real4 any_point(LightingRng& rng, const Shadow& shadow) {
   Real4 x{rng.between(-10, 10), rng.between(-10, 10), rng.between(-10, 10), 1};
   if (rng.one_in(2)) {  // near the plane
@@ -75,7 +80,8 @@ Real4 any_point(LightingRng& rng, const Shadow& shadow) {
 
 Shadow any_shadow(LightingRng& rng) {
   Shadow s;
-  const std::array<float, 3> n = rng.direction(), d = rng.direction();
+  const std::array<float, 3> n = rng.direction();
+  const std::array<float, 3> d = rng.direction();
   const double size = std::pow(10, rng.of({0.0, 0.0, -100.0, 100.0, -290.0, 290.0}));
   s.plane = {n[0] * size, n[1] * size, n[2] * size, rng.between(-10, 10) * size};
   const float far = static_cast<float>(std::pow(10, rng.of({-20, -3, 0, 3, 20, 36})));
@@ -92,7 +98,7 @@ TEST(PlanarShadows, FallOntoThePlane) {
     const Shadow shadow = any_shadow(rng);
     const std::optional<Matrix> m = shadow.matrix();
     if (!m) {
-      EXPECT_LT(shadow.slope(), 0x1p-21L) << "there is a shadow";
+      EXPECT_LT(shadow.slope(), 0x1p-21L) << "a valid shadow was rejected";
       continue;
     }
     ++cast;
@@ -102,16 +108,17 @@ TEST(PlanarShadows, FallOntoThePlane) {
   expect_within("planar shadows, of 4 double eps over the sine between light and plane", worst, 1, "");
 }
 
-// From where the light is 2^-30 of its distance off the plane to where it is well off: refused up to 2^-22 of
-// what is added up, right from there on.
-TEST(PlanarShadows, OfLightsNearlyInThePlaneAreRightOrRefused) {
+// The light's distance from the plane ranges from 2^-30 of its magnitude to well off the plane. Rejected up
+// to 2^-22 of the sum of the magnitudes, accurate above that.
+TEST(PlanarShadows, LightsNearlyInThePlaneAreAccurateOrRejected) {
   LightingRng rng{std::mt19937(52)};
   Real worst = 0;
-  int cast = 0, refused = 0;
+  int cast = 0;
+  int refused = 0;
   for (int n = 0; n < 20000 * (long_tests() ? 100 : 1); ++n) {
     Shadow shadow = any_shadow(rng);
     const double off = std::exp2(rng.between(-30, -8));
-    // A plane through nearly where the light is, or along it.
+    // A plane that nearly contains the light or its direction.
     const Real4 l = shadow.l();
     Real4 p = shadow.p();
     if (l[3] == 0) {
@@ -136,8 +143,8 @@ TEST(PlanarShadows, OfLightsNearlyInThePlaneAreRightOrRefused) {
   expect_within("planar shadows of lights nearly in the plane, of the same", worst, 1, "");
 }
 
-// Elements that no double holds are refused, too; what is drawn never is.
-TEST(PlanarShadows, ThatAreTooFarAwayAreRefused) {
+// Matrix elements beyond the range of doubles are rejected, too. Accepted shadows are always finite.
+TEST(PlanarShadows, TooDistantShadowsAreRejected) {
   const Light above{.position = {0, 0, 1, 1}};
   EXPECT_THROW(planar_shadow({0, 0, 1e-310, 1}, Light{.position = {0, 0, 1, 0}}), Error);
   EXPECT_THROW(planar_shadow({0, 0, 1e-310, 1e300}, Light{.position = {0, 0, 1, 0}}), Error);

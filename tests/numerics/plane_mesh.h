@@ -1,4 +1,4 @@
-// A plane in clip space, cut into triangles that are clipped in different ways, and what of it is seen.
+// A plane in clip space, cut into triangles that are clipped in different ways, and its visible part.
 #pragma once
 
 #include <array>
@@ -10,10 +10,11 @@
 
 namespace tessera::test {
 
-/// The points origin + u to_u + v to_v, as vectors of x y z w. Everything is in whole numbers that floats
-/// hold.
+/// The points origin + u to_u + v to_v, as vectors x y z w. All coordinates are integers that floats hold.
 struct ClipPlane {
-  ClipPoint origin, to_u, to_v;
+  ClipPoint origin;
+  ClipPoint to_u;
+  ClipPoint to_v;
 
   ClipPoint at(std::int64_t u, std::int64_t v) const {
     const auto on = [&](std::int64_t ClipPoint::*c) { return origin.*c + u * to_u.*c + v * to_v.*c; };
@@ -22,7 +23,7 @@ struct ClipPlane {
   std::optional<VisiblePlane> seen(const SquareViewport& view) const {
     return visible_plane({origin, to_u, to_v}, view);
   }
-  /// Adds vertices at points (u, v) of the plane, times a power of two.
+  /// Mesh with vertices at points (u, v) of the plane, times a power of two.
   CountedMesh mesh_at(const std::vector<WindowPoint>& points, double scale = 1) const {
     CountedMesh mesh;
     for (const WindowPoint& p : points) {
@@ -32,7 +33,7 @@ struct ClipPlane {
     }
     return mesh;
   }
-  /// Where z and w are between near and far, and u and v within `size`.
+  /// The part with z and w between near and far, and u and v within `size`.
   ExactRegion region(const VisiblePlane& seen, std::int64_t size, bool reversed = false) const {
     const auto mix = [&](const auto& value) { return seen.mix(value(origin), value(to_u), value(to_v)); };
     ExactRegion region;
@@ -48,7 +49,7 @@ struct ClipPlane {
   }
 };
 
-/// Coordinates of one digit, and so mostly steep to the window and through all clip planes.
+/// Coordinates of one digit: mostly steep to the window, and crossing all clip planes.
 inline ClipPlane random_plane(MeshRandom& random) {
   const auto point = [&] {
     return ClipPoint{random.between(-7, 7), random.between(-7, 7), random.between(-7, 7),
@@ -57,7 +58,7 @@ inline ClipPlane random_plane(MeshRandom& random) {
   return {point(), point(), point()};
 }
 
-/// u and v from -size to size, inner vertices anywhere in whole numbers.
+/// u and v from -size to size; inner vertices are random whole numbers.
 inline Grid random_plane_grid(MeshRandom& random, std::int64_t size, int max_cells) {
   Grid grid;
   do {

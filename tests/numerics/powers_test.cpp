@@ -1,6 +1,6 @@
-// Our own logarithms and powers against results of long double, and of double where there are billions of
-// them: the largest error in units in the last place (ulp) of what is exact, and relative to it. They have
-// the same bits on every instruction set, which other tests compare: the fastest is measured.
+// Logarithms and powers against long double, and against double where there are billions of them: the largest
+// error in units in the last place (ulp) of the exact value, and relative to it. All instruction sets give
+// the same bits (other tests compare them), so only the fastest is measured.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 using Exact = std::function<long double(float)>;
 
-/// The largest of errors in ulp, and relative to what is exact.
+/// Largest error in ulp, and relative to the exact value.
 struct Errors {
   long double ulp = 0, relative = 0;
   template <class Real>
@@ -48,17 +48,17 @@ void measure(Errors& errors, PowerFunction function, std::uint32_t first, std::u
   });
 }
 
-TEST(Functions, Logarithms) {
+TEST(PowerFunctions, Logarithms) {
   const auto exact = [](float x) { return std::log2(static_cast<long double>(x)); };
   Errors errors;
-  // 1 apart: log2(1) is 0, and comes out so.
+  // 1 is skipped: log2(1) is exactly 0.
   measure(errors, PowerFunction::log2, bits_of(kMinNormal), bits_of(1) - 1, exact);
   measure(errors, PowerFunction::log2, bits_of(1) + 1, bits_of(3.4028234e38f), exact);
   expect_within("log2(x), normal x", errors.ulp, 1.61, "ulp");
   expect_within("log2(x), normal x, relative", errors.relative, 2.09, "2^-24");
 }
 
-TEST(Functions, PowersOfTwo) {
+TEST(PowerFunctions, PowersOfTwo) {
   const auto exact = [](float x) { return std::exp2(static_cast<long double>(x)); };
   Errors errors;
   measure(errors, PowerFunction::exp2, 0, bits_of(kMaxLog2), exact);
@@ -66,23 +66,24 @@ TEST(Functions, PowersOfTwo) {
   expect_within("2^x, x in -126 .. 96", errors.ulp, 1.2, "ulp");
 }
 
-/// Errors of powers of x in 0 .. 1, of those of at least 1/256 and of all that are normal floats.
+/// Errors of powers of x in 0 .. 1, for powers of at least 1/256 and for all normal powers.
 struct PowerErrors {
-  Errors visible, any;
+  Errors visible;
+  Errors any;
   template <class Real>
   void add(float y, const std::vector<float>& arguments) {
     const std::vector<float> results = evaluated(PowerFunction::power, y, arguments);
     for (std::size_t i = 0; i < arguments.size(); ++i) {
       const Real exact = std::pow(static_cast<Real>(arguments[i]), static_cast<Real>(y));
-      if (exact < 0x1.02p-126L) continue;  // cut off there
+      if (exact < 0x1.02p-126L) continue;  // clamped to 2^-126
       any.add(results[i], exact);
       if (exact >= 0x1p-8L) visible.add(results[i], exact);
     }
   }
-  // p = y log2 x is off by what the logarithm is, 2.09 u of it (u = 2^-24), and by half an ulp of its own, 64
-  // u where |p| is between 64 and 128, 4 u between 4 and 8. 2^p is off by ln 2 times that, and by its own 1.2
-  // ulp, which are no more than 2.4 u: (2.09 * 126 + 64) ln 2 + 2.4 = 229.4, and (2.09 * 8 + 4) ln 2 + 2.4
-  // = 16.8. An ulp is between u and 2 u; where it is u, the share of 2^p's error is 1.2: 228.2 and 15.6.
+  // p = y log2 x has the error of the logarithm, 2.09 u of p (u = 2^-24), and half an ulp of its own: 64 u
+  // for |p| between 64 and 128, 4 u between 4 and 8. 2^p is off by ln 2 times that plus its own 1.2 ulp, at
+  // most 2.4 u: (2.09 * 126 + 64) ln 2 + 2.4 = 229.4 and (2.09 * 8 + 4) ln 2 + 2.4 = 16.8. An ulp is between
+  // u and 2 u; where it is u, the error of 2^p counts 1.2: 228.2 and 15.6.
   void expect(const std::string& power) const {
     expect_within(power + " of at least 1/256, relative", visible.relative, 16.8L, "2^-24");
     expect_within(power + " of at least 1/256", visible.ulp, 15.6L, "ulp");
@@ -91,28 +92,32 @@ struct PowerErrors {
   }
 };
 
-// Exponents are 0 .. 16384. Of the large ones every float near enough to 1 to have a power. A test for each:
-// with TESSERA_LONG one has up to a billion of them. So what is exact is a double here, which is off by about
-// 2^-28 of a float's ulp itself.
-class FunctionsPowers : public testing::TestWithParam<float> {};
-TEST_P(FunctionsPowers, OfOneExponent) {
+/// Distance of the sampled arguments in floats. Large exponents have few arguments with a normal power.
+std::uint32_t step_of(float y) {
+  if (y > 5000) return 1;
+  return y > 500 ? 7 : kSampled;
+}
+
+// Exponents 0 .. 16384. For large exponents, every float close enough to 1 to have a normal power. One test
+// per exponent: with TESSERA_LONG up to a billion floats each. The exact value is therefore a double here,
+// which is itself off by about 2^-28 of a float's ulp.
+class RealPowers : public testing::TestWithParam<float> {};
+TEST_P(RealPowers, AreWithinTheirErrorBounds) {
   const float y = GetParam();
   PowerErrors errors;
   const auto least = std::max(static_cast<float>(std::exp2(-126 / static_cast<double>(y))), kMinNormal);
   for_floats(
       bits_of(least), bits_of(1),
-      [&](const std::vector<float>& arguments) { errors.add<double>(y, arguments); },
-      y > 5000  ? 1
-      : y > 500 ? 7
-                : kSampled);
+      [&](const std::vector<float>& arguments) { errors.add<double>(y, arguments); }, step_of(y));
   errors.expect("x^" + std::to_string(y).substr(0, 5));
 }
-INSTANTIATE_TEST_SUITE_P(Exponents, FunctionsPowers,
+INSTANTIATE_TEST_SUITE_P(Exponents, RealPowers,
                          testing::Values(0.25f, 0.5f, 2.0f, 20.0f, 128.0f, 1000.0f, 7661.0f, 10000.0f,
                                          16384.0f));
 
-// Exponents evenly in 0 .. 16384 and in their logarithms, and the powers evenly in theirs.
-TEST(Functions, PowersOfAnyExponent) {
+// Exponents spaced evenly in 0 .. 16384 and evenly in their logarithms; powers spaced evenly in their
+// logarithms.
+TEST(PowerFunctions, PowersOfAnyExponent) {
   std::mt19937 random(9);
   const auto unit = [&] { return static_cast<double>(random()) * 0x1p-32; };
   PowerErrors errors;
@@ -128,13 +133,14 @@ TEST(Functions, PowersOfAnyExponent) {
   errors.expect("x^y, y in 0 .. 16384");
 }
 
-// Products: x^a x^b is off by what its factors are, a - 1 and b - 1 roundings of u, and by its own. Exponents
-// in ranges of about as many floats each, a billion with TESSERA_LONG: what is exact is a double here, too.
+// Products: x^a x^b has the errors of its factors, a - 1 and b - 1 roundings of u, and its own rounding. The
+// ranges of exponents contain about equally many floats, a billion with TESSERA_LONG; the exact value is a
+// double here, too.
 struct WholeExponents {
   int first, last;
 };
-class FunctionsWholePowers : public testing::TestWithParam<WholeExponents> {};
-TEST_P(FunctionsWholePowers, OfExponents) {
+class IntegerPowers : public testing::TestWithParam<WholeExponents> {};
+TEST_P(IntegerPowers, AreWithinTheirErrorBounds) {
   const auto [first, last] = GetParam();
   double share = 0;
   for (int n = first; n <= last; ++n)
@@ -151,16 +157,16 @@ TEST_P(FunctionsWholePowers, OfExponents) {
   expect_within("x^n, n = " + std::to_string(first) + " .. " + std::to_string(last) + ", relative", share, 1,
                 "(n - 1) 2^-24");
 }
-INSTANTIATE_TEST_SUITE_P(Exponents, FunctionsWholePowers,
+INSTANTIATE_TEST_SUITE_P(Exponents, IntegerPowers,
                          testing::Values(WholeExponents{2, 4}, WholeExponents{5, 8}, WholeExponents{9, 16},
                                          WholeExponents{17, 32}, WholeExponents{33, kMaxIntegerExponent}),
                          [](const auto& range) {
-                           return "Of" + std::to_string(range.param.first) + "To" +
+                           return "From" + std::to_string(range.param.first) + "To" +
                                   std::to_string(range.param.last);
                          });
 
-// They have no logarithm of ours: each counts as the smallest normal float. Nothing has the power 0.
-TEST(Functions, PowersOfSubnormalFloats) {
+// Subnormal arguments count as the smallest normal float. 0 has the power 0.
+TEST(PowerFunctions, PowersOfSubnormalFloats) {
   std::vector<float> subnormal{0x1p-149f};
   while (subnormal.size() < 16)
     subnormal.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(0x7fffff * subnormal.size() / 15)));

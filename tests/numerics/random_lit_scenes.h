@@ -1,4 +1,4 @@
-// Random lights, materials and patches that a scene of lit patches consists of.
+// Random lights, materials and patches for scenes of lit patches.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,8 @@ inline Color random_color(LightingRng& rng, double largest, bool negative) {
   return {r, g, c(), 1};
 }
 
-/// Anywhere around the scene, of any kind, and so bright that all of them together rarely saturate.
+/// A light of any kind around the scene. Its brightness is chosen so that `of` such lights together rarely
+/// saturate.
 inline Light random_light(LightingRng& rng, std::size_t of, double extent) {
   const double share = std::min(1.5, 8 / static_cast<double>(of));
   const bool negative = rng.one_in(4);
@@ -29,7 +30,8 @@ inline Light random_light(LightingRng& rng, std::size_t of, double extent) {
   if (rng.one_in(4)) {
     l.position = {x, y, z, 0};
   } else {
-    const double distance = extent * rng.of({0.1, 1.0, 3.0, 100.0}), w = rng.of({1.0, 2.0, -0.25});
+    const double distance = extent * rng.of({0.1, 1.0, 3.0, 100.0});
+    const double w = rng.of({1.0, 2.0, -0.25});
     l.position = {static_cast<float>(x * distance * w), static_cast<float>(y * distance * w),
                   static_cast<float>(z * distance * w), static_cast<float>(w)};
     l.spot_cutoff = rng.of(kCutoffs);
@@ -41,7 +43,8 @@ inline Light random_light(LightingRng& rng, std::size_t of, double extent) {
   }
   if (rng.one_in(2)) l.spot_cutoff = 180;
   l.spot_exponent = rng.of(kExponents);
-  const auto aim = rng.direction();  // some at the scene, some past it
+  // Random offset, so that some lights point at the scene and some past it.
+  const auto aim = rng.direction();
   l.spot_direction = {-x + 0.3f * aim[0], -y + 0.3f * aim[1], -z + 0.3f * aim[2]};
   return l;
 }

@@ -1,5 +1,5 @@
-// Where the 4 and 8 samples of a pixel lie, to 1/256 pixel, what each of them holds, and what becomes of
-// them: all through the public interface, against exact whole numbers.
+// Positions of the 4 and 8 samples of a pixel, to 1/256 pixel, the contents of each sample, and the resolve:
+// through the public interface, against exact integers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,17 +13,20 @@
 namespace tessera::test {
 namespace {
 
-constexpr int kSide = 256, kScale = 256;  // every 1/256 pixel is a float's coordinate, exactly
+// Every multiple of 1/256 pixel is exact in float.
+constexpr int kSide = 256;
+constexpr int kScale = 256;
 
 struct Place {  // 1/256 pixel, y down from the top row
   std::int64_t x, y;
 };
 using Corners = std::array<Place, 3>;
 
-// The spec's table, in 1/16 pixel from the centre, y down.
+// The specification's table, in 1/16 pixel from the centre, y down.
 const std::vector<Place>& positions(int samples) {
-  static const std::vector<Place> kFour{{-2, -6}, {6, -2}, {-6, 2}, {2, 6}},
-      kEight{{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
+  static const std::vector<Place> kFour{{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
+  static const std::vector<Place> kEight{{1, -3}, {-1, 3},  {5, 1}, {-3, -5},
+                                         {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
   return samples == 4 ? kFour : kEight;
 }
 Place sample(int x, int y, int samples, std::size_t k) {
@@ -31,8 +34,8 @@ Place sample(int x, int y, int samples, std::size_t k) {
   return {kScale * x + kScale / 2 + 16 * p.x, kScale * y + kScale / 2 + 16 * p.y};
 }
 
-// Inside, where a point on an edge counts as moved by (e, e^2) to the right and downwards, for an e that is
-// as small as need be: that is the top-left rule.
+// Whether the triangle covers the point. A point on an edge counts as moved by (e, e^2) to the right and
+// down, for an infinitely small e: the top-left rule.
 bool covers(const Corners& t, const Place& p) {
   const auto turn = [](const Place& a, const Place& b, const Place& c) {
     return Int128{b.x - a.x} * (c.y - a.y) - Int128{b.y - a.y} * (c.x - a.x);
@@ -41,13 +44,16 @@ bool covers(const Corners& t, const Place& p) {
   if (area == 0) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     const Place &a = area > 0 ? t[k] : t[(k + 1) % 3], &b = area > 0 ? t[(k + 1) % 3] : t[k];
-    const Int128 at = turn(a, b, p), by_e = -(b.y - a.y), by_e2 = b.x - a.x;
-    if (at != 0 ? at < 0 : by_e != 0 ? by_e < 0 : by_e2 <= 0) return false;
+    const Int128 at = turn(a, b, p);
+    const Int128 by_e = -(b.y - a.y);
+    const Int128 by_e2 = b.x - a.x;
+    const bool is_outside_on_edge = by_e != 0 ? by_e < 0 : by_e2 <= 0;
+    if (at != 0 ? at < 0 : is_outside_on_edge) return false;
   }
   return true;
 }
 
-/// Triangles that cover nothing of a pixel but one sample, or whatever their corners say; drawn as one mesh.
+/// Triangles drawn as one mesh: with given corners, or covering a single sample of a pixel only.
 struct Triangles {
   MeshData mesh;
   void add(const Corners& corners, double depth = 0.5) {
@@ -70,9 +76,9 @@ class SamplePositions : public testing::TestWithParam<int> {
   FrameBufferFormat format() const { return {.width = kSide, .height = kSide, .samples = samples}; }
 };
 
-// A triangle of 1/256 pixel at each of the 65536 places of a pixel, each in a pixel of its own, the right
-// angle in each corner: it covers the sample that lies in the corner which is its top left one, and no other.
-TEST_P(SamplePositions, AreWhereTheSpecSaysToThe256thOfAPixel) {
+// One triangle of 1/256 pixel for each of the 65536 positions within a pixel, each in its own pixel, with the
+// right angle in each corner of the grid square. It covers a sample only at its top left corner.
+TEST_P(SamplePositions, MatchTheSpecificationToOne256thOfAPixel) {
   constexpr int kHalf = kSide;
   for (int corner = 0; corner < 4; ++corner)
     for (const bool turned : {false, true})
@@ -103,8 +109,8 @@ TEST_P(SamplePositions, AreWhereTheSpecSaysToThe256thOfAPixel) {
       }
 }
 
-// Edges in any direction that pass a sample exactly, or by 1/256 pixel to either side.
-TEST_P(SamplePositions, AreOnTheRightSideOfEdgesThatNearlyTouchThem) {
+// Edges of all directions that pass through a sample exactly or miss it by 1/256 pixel on either side.
+TEST_P(SamplePositions, AreOnTheRightSideOfNearbyEdges) {
   Random random(9);
   const auto between = [&](int low, int high) {
     return low + static_cast<int>(random.next() % static_cast<unsigned>(high - low + 1));
@@ -119,8 +125,9 @@ TEST_P(SamplePositions, AreOnTheRightSideOfEdgesThatNearlyTouchThem) {
         expected.push_back(0);
         if ((x + y) % 16 != round % 16) continue;
         const std::size_t near = random.next() % static_cast<unsigned>(samples);
-        const Place s = sample(x, y, samples, near), along{between(-3000, 3000), between(-3000, 3000)},
-                    off{between(-1, 1), between(-1, 1)};
+        const Place s = sample(x, y, samples, near);
+        const Place along{between(-3000, 3000), between(-3000, 3000)};
+        const Place off{between(-1, 1), between(-1, 1)};
         const int before = between(0, 3), after = between(1, 3);
         const Corners t{Place{s.x + off.x - before * along.x, s.y + off.y - before * along.y},
                         Place{s.x + off.x + after * along.x, s.y + off.y + after * along.y},
@@ -147,8 +154,8 @@ TEST_P(SamplePositions, AreOnTheRightSideOfEdgesThatNearlyTouchThem) {
   }
 }
 
-// Each sample of each pixel gets a level of its own; what is stored is their mean, rounded to the nearest,
-// halves up, component by component.
+// Each sample of each pixel has a different level. The resolve stores their mean per component, rounded to
+// the nearest level, halves up.
 TEST_P(SamplePositions, AreResolvedToTheMeanOfTheirLevels) {
   constexpr int kUsed = 40;
   Random random(10);
@@ -199,8 +206,7 @@ TEST_P(SamplePositions, AreResolvedToTheMeanOfTheirLevels) {
     }
 }
 
-// Each sample has a depth and a stencil value of its own for as long as the frame runs; what is stored are
-// those of the first.
+// Depth and stencil are per sample within a frame; the stored values are those of sample 0.
 TEST_P(SamplePositions, HaveTheirOwnDepthAndStencil) {
   constexpr int kUsed = 16;
   for (const DepthFormat depth_format :
@@ -223,18 +229,18 @@ TEST_P(SamplePositions, HaveTheirOwnDepthAndStencil) {
             StencilState{.front = {.ref = static_cast<std::uint32_t>(10 + k), .zpass = StencilOp::replace}};
         frame.draw(layers[k].mesh.view(), state);
       }
-      // Red where the stencil value is that sample's; blue added where the depth is behind one between its
-      // own and the next.
-      DrawState red = unlit({1, 0, 0, 1}), blue = unlit({0, 0, 1, 1});
+      // Red where the stencil value is that of sample `seen`; blue added to samples whose depth lies behind a
+      // plane between this sample's depth and the next.
+      DrawState red = unlit({1, 0, 0, 1});
+      DrawState blue = unlit({0, 0, 1, 1});
       red.depth.enabled = false;
       red.stencil =
           StencilState{.front = {.func = Compare::equal, .ref = static_cast<std::uint32_t>(10 + seen)}};
       blue.depth.write = false;
       blue.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one};
-      const MeshData window = whole_window(),
-                     plane = rectangle(
-                         -1, -1, 1, 1,
-                         static_cast<float>(2 * (static_cast<double>(seen + 1) / 16 + 1 / 32.0) - 1));
+      const MeshData window = whole_window();
+      const MeshData plane = rectangle(
+          -1, -1, 1, 1, static_cast<float>(2 * (static_cast<double>(seen + 1) / 16 + 1 / 32.0) - 1));
       frame.draw(window.view(), red);
       frame.draw(plane.view(), blue);
       Renderer({.threads = 1}).finish(frame);
@@ -245,8 +251,8 @@ TEST_P(SamplePositions, HaveTheirOwnDepthAndStencil) {
       for (int y = 0; y < kUsed; ++y)
         for (int x = 0; x < kUsed; ++x) {
           const std::size_t i = static_cast<std::size_t>(y * kSide + x);
-          const int reds = mean_level(255, samples),
-                    blues = mean_level(255 * (samples - 1 - static_cast<int>(seen)), samples);
+          const int reds = mean_level(255, samples);
+          const int blues = mean_level(255 * (samples - 1 - static_cast<int>(seen)), samples);
           ASSERT_EQ(words[i], static_cast<std::uint32_t>(reds << 16 | blues))
               << "sample " << seen << ", pixel " << x << ", " << y;
           ASSERT_EQ(stencil[i], 10);

@@ -1,6 +1,6 @@
-// With several samples a pixel's centre may lie outside of the triangle that its samples see, of a sliver by
-// many times its width: what is shaded there stays within the range of the vertices all the same. The mean of
-// samples that are within a range, and of a clear that is, is within it too.
+// With several samples a pixel's centre may lie outside of the triangle that covers some of its samples, for
+// a sliver by many times its width. The colour shaded there still stays within the range of the vertices. The
+// mean of samples within a range, and of a clear value within it, is within the range, too.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,10 +16,13 @@
 namespace tessera::test {
 namespace {
 
-constexpr int kSide = 64, kLow = 102, kHigh = 153;  // of 255
+// Levels of 255.
+constexpr int kSide = 64;
+constexpr int kLow = 102;
+constexpr int kHigh = 153;
 
-// Triangles of any shape, half of them slivers, under perspective. Colours, and texels that are their
-// coordinates, from kLow to kHigh.
+// Triangles of any shape, half of them slivers, under perspective. Colours, and texels equal to their
+// coordinates, are from kLow to kHigh.
 MeshData any_triangles(Random& random) {
   MeshData mesh;
   mesh.position_components = 4;
@@ -38,27 +41,30 @@ MeshData any_triangles(Random& random) {
   return mesh;
 }
 
-// Lit at each pixel, from cosines and distances that give levels from kLow to kHigh.
-constexpr float kLit = kHigh / 255.0f, kDepths = 30,
-                kAttenuation = 0.0005f;  // 153 / (1 + 0.0005 (30² + 2² + 2²)) = 105
+// Per-pixel lighting with cosines and distances that give levels from kLow to kHigh.
+constexpr float kLit = kHigh / 255.0f;
+constexpr float kDepths = 30;
+constexpr float kAttenuation = 0.0005f;  // 153 / (1 + 0.0005 (30² + 2² + 2²)) = 105
 
-// Normals of any length around z, by cosines from 0.675.
+// Normals of any length around z, with cosines of at least 0.675.
 void tilt(MeshData& mesh, Random& random) {
   for (std::size_t i = 0; i < mesh.positions.size() / 4; ++i) {
-    const float z = random.between(0.675f, 1), around = random.between(0, 6.2831853f),
-                length = random.between(0.1f, 10), side = std::sqrt(1 - z * z);
+    const float z = random.between(0.675f, 1);
+    const float around = random.between(0, 6.2831853f);
+    const float length = random.between(0.1f, 10);
+    const float side = std::sqrt(1 - z * z);
     for (const float c : {side * std::cos(around), side * std::sin(around), z})
       mesh.normals.push_back(length * c);
   }
 }
-// Planes at any angle to the screen, kDepths to both sides of the light.
+// Planes at any angle to the screen, up to kDepths in front of and behind the light.
 void deepen(MeshData& mesh, Random& random) {
   for (std::size_t i = 0; i < mesh.positions.size(); i += 4)
     mesh.positions[i + 2] = mesh.positions[i + 3] * random.between(-kDepths, kDepths);
 }
 
 struct Subject {
-  std::function<void(MeshData&, Random&)> shape;  // or none
+  std::function<void(MeshData&, Random&)> shape;  // optional
   std::function<void(Frame&, DrawState&)> set_up;
 };
 
@@ -112,14 +118,14 @@ void of_texels(const std::string& what, const std::function<void(DrawState&)>& s
   });
 }
 
-TEST(SampledRange, OfColors) {
+TEST(SampledRange, ColorsStayInRange) {
   unlit("colours", [](DrawState&) {});
   unlit("colours that are blended", [](DrawState& s) {
     s.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one_minus_src_alpha};
   });
   unlit("colours under an alpha test", [](DrawState& s) { s.alpha_test = kAlwaysPasses; });
 }
-TEST(SampledRange, OfTexels) {
+TEST(SampledRange, TexelsStayInRange) {
   of_texels("nearest texels", [](DrawState&) {});
   of_texels("nearest texels under an alpha test", [](DrawState& s) { s.alpha_test = kAlwaysPasses; });
 }
@@ -140,16 +146,15 @@ void deep(Frame& frame, DrawState& state) {
          frame, state);
 }
 
-// Normals within a cone whose cosines are above 0 are so in every mixture of theirs, and positions within a
-// sphere.
-TEST(SampledRange, OfNormals) {
+// Interpolated normals stay within a convex cone (all cosines above 0), and positions within a sphere.
+TEST(SampledRange, NormalsStayInRange) {
   expect_range("normals", {.shape = tilt, .set_up = tilted});
   expect_range("normals under an alpha test", {.shape = tilt, .set_up = [](Frame& f, DrawState& s) {
                                                  tilted(f, s);
                                                  s.alpha_test = kAlwaysPasses;
                                                }});
 }
-TEST(SampledRange, OfPositions) {
+TEST(SampledRange, PositionsStayInRange) {
   expect_range("positions", {.shape = deepen, .set_up = deep});
   expect_range("positions under an alpha test", {.shape = deepen, .set_up = [](Frame& f, DrawState& s) {
                                                    deep(f, s);

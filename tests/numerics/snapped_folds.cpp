@@ -12,7 +12,7 @@ constexpr int kGuardBand = 16383;  // pixels from the viewport's centre
 
 using Point = std::array<mpq_class, 4>;
 
-// Where all three are of a point's size, of any.
+// Value of the plane's linear function. Zero coefficients are skipped for speed.
 mpq_class value_at(const Point& p, const Point& plane) {
   mpq_class value = 0;
   for (std::size_t c = 0; c < 4; ++c)
@@ -20,7 +20,7 @@ mpq_class value_at(const Point& p, const Point& plane) {
   return value;
 }
 
-// By x, y, z and w times the plane's four numbers.
+// Each plane is given by the coefficients of x, y, z and w; its inside is >= 0.
 std::vector<Point> clip(std::vector<Point> polygon, const std::vector<Point>& planes) {
   for (const Point& plane : planes) {
     std::vector<Point> kept;
@@ -39,7 +39,7 @@ std::vector<Point> clip(std::vector<Point> polygon, const std::vector<Point>& pl
   return polygon;
 }
 
-// The nearest 1/256 pixel, halves up.
+// Rounds to the nearest 1/256 pixel, halves up.
 std::int64_t snap(const mpq_class& coordinate, const mpq_class& w, const SquareViewport& view) {
   const mpq_class units = 128 * view.side * coordinate / w + mpq_class(1, 2);
   mpz_class floor;
@@ -52,7 +52,10 @@ int sign(std::int64_t value) { return (value > 0) - (value < 0); }
 bool edges_cross(const std::vector<WindowPoint>& p) {
   for (std::size_t i = 0; i < p.size(); ++i)
     for (std::size_t j = i + 2; j < p.size(); ++j) {
-      const WindowPoint &a = p[i], &b = p[i + 1], &c = p[j], &d = p[(j + 1) % p.size()];
+      const WindowPoint& a = p[i];
+      const WindowPoint& b = p[i + 1];
+      const WindowPoint& c = p[j];
+      const WindowPoint& d = p[(j + 1) % p.size()];
       if (sign(doubled_area(a, b, c)) * sign(doubled_area(a, b, d)) < 0 &&
           sign(doubled_area(c, d, a)) * sign(doubled_area(c, d, b)) < 0)
         return true;
@@ -86,7 +89,8 @@ bool snapping_folds(const CountedMesh& mesh, const SquareViewport& view, bool re
                                   {0, -1, 0, guard}};
   std::vector<Point> positions;
   for (std::size_t i = 0; i < mesh.positions.size(); i += 4) {
-    Point position, carried;
+    Point position;
+    Point carried;
     for (std::size_t c = 0; c < 4; ++c) position[c] = mesh.positions[i + c];
     for (std::size_t r = 0; r < 4; ++r)
       carried[r] = value_at(position, {transform.m[4 * r], transform.m[4 * r + 1], transform.m[4 * r + 2],

@@ -1,6 +1,6 @@
-// Whether snapping folds a mesh: vertices move by up to half of 1/256 pixel, which turns over triangles that
-// are thinner than that. Those overlap their neighbours once they are snapped, whoever draws them; all others
-// cover each pixel once.
+// Detects meshes that fold when snapped: vertices move by up to half of 1/256 pixel, which flips thinner
+// triangles. Flipped triangles overlap their neighbours in any renderer; all other meshes cover each pixel
+// once.
 #pragma once
 
 #include "tests/numerics/counted_mesh.h"
@@ -8,10 +8,10 @@
 
 namespace tessera::test {
 
-/// Clips and snaps the triangles in fractions of whole numbers of any size, and by rules of its own. True if
-/// one is turned over, or its edges cross.
+/// Clips and snaps the triangles in exact fractions, independently of the engine. Returns true if a triangle
+/// is flipped or its edges cross.
 ///
-/// @param transform  carries the mesh's positions to clip space
+/// @param transform maps the mesh's positions to clip space
 bool snapping_folds(const CountedMesh& mesh, const SquareViewport& view, bool reversed = false,
                     const Matrix& transform = {});
 

@@ -1,5 +1,5 @@
-// Stencil buffers of 1 to 8 bits at the ends of their range: every operation on every value, saturated or
-// wrapped, under write masks; and counts that pass the ends many times over.
+// Stencil buffers of 1 to 8 bits at the ends of their range: every operation on every value, saturating or
+// wrapping, under write masks; and counts that pass the ends many times.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,8 @@ constexpr StencilOp kOps[] = {StencilOp::keep, StencilOp::zero,   StencilOp::rep
 constexpr std::uint32_t kReferences[] = {0, 1, 5, 200, 0xffffffff},
                         kMasks[] = {0xff, 0, 0x55, 0xaa, 0x0f, 0xffffff80};
 
-// What the header says, in plain integers: a reference is cut to the largest value, a mask to the bits.
+// The header's definition in plain integers: the reference is clamped to the largest value, masks to the bits
+// of the buffer.
 std::uint32_t after(StencilOp op, std::uint32_t stored, std::uint32_t reference, std::uint32_t write_mask,
                     int bits) {
   const std::uint32_t most = (1u << bits) - 1;
@@ -43,7 +44,7 @@ bool passes(Compare func, std::uint32_t a, std::uint32_t b) {
 enum class Outcome { fails, fails_depth, passes };
 enum class Drawn { triangles, points, lines, bitmap };
 
-/// Columns hold the values 0, 1, 2, ... of the buffer, again and again. Each row has a draw of its own.
+/// Columns hold the values 0, 1, 2, ... of the buffer, repeated. Each row has its own draw.
 class Rows {
  public:
   Rows(int bits, int samples, int rows)
@@ -57,7 +58,7 @@ class Rows {
   static constexpr int kWidth = 256;
   std::uint32_t stored(int x) const { return static_cast<std::uint32_t>(x) % (1u << bits_); }
 
-  /// Of the row `y` from below.
+  /// Draws row `y`, counted from below.
   void draw(int y, const StencilFace& face, Outcome outcome, Drawn drawn, bool back) {
     DrawState state = unlit({1, 1, 1, 1});
     state.stencil.emplace();
@@ -73,9 +74,11 @@ class Rows {
           {.depth = state.depth, .stencil = state.stencil, .scissor = state.scissor});
       return;
     }
-    static const MeshData all = whole_window(), point = of(Primitive::points, {0, 0, 0}),
-                          line = of(Primitive::lines, {-1, 0, 0, 1, 0, 0});
-    frame_.draw((drawn == Drawn::triangles ? all : drawn == Drawn::points ? point : line).view(), state);
+    static const MeshData all = whole_window();
+    static const MeshData point = of(Primitive::points, {0, 0, 0});
+    static const MeshData line = of(Primitive::lines, {-1, 0, 0, 1, 0, 0});
+    const MeshData& small = drawn == Drawn::points ? point : line;
+    frame_.draw((drawn == Drawn::triangles ? all : small).view(), state);
   }
   void finish() {
     Renderer({.threads = 1}).finish(frame_);
@@ -106,7 +109,8 @@ class Rows {
 TEST(StencilOverflow, EveryOperationOnEveryValueOfEveryWidth) {
   struct Row {
     StencilOp op;
-    std::uint32_t reference, write_mask;
+    std::uint32_t reference;
+    std::uint32_t write_mask;
   };
   std::vector<Row> rows;
   for (const StencilOp op : kOps)
@@ -118,24 +122,19 @@ TEST(StencilOverflow, EveryOperationOnEveryValueOfEveryWidth) {
     for (const int samples : {1, 4, 8})
       for (const Outcome outcome : {Outcome::fails, Outcome::fails_depth, Outcome::passes})
         for (const bool back : {false, true}) {
-          const Drawn drawn =
-              back ? Drawn::triangles : static_cast<Drawn>(turn++ % 4);  // what has no faces is front
+          // Primitives without a facing count as front.
+          const Drawn drawn = back ? Drawn::triangles : static_cast<Drawn>(turn++ % 4);
           Rows buffer(bits, samples, static_cast<int>(rows.size()));
           for (std::size_t y = 0; y < rows.size(); ++y) {
             StencilFace face{.func = outcome == Outcome::fails ? Compare::never : Compare::always,
                              .ref = rows[y].reference,
                              .mask = 0,
                              .write_mask = rows[y].write_mask};
-            // The other two outcomes must not happen: they would leave another value.
-            face.fail = outcome == Outcome::fails       ? rows[y].op
-                        : rows[y].op == StencilOp::zero ? StencilOp::invert
-                                                        : StencilOp::zero;
-            face.zfail = outcome == Outcome::fails_depth ? rows[y].op
-                         : rows[y].op == StencilOp::zero ? StencilOp::invert
-                                                         : StencilOp::zero;
-            face.zpass = outcome == Outcome::passes      ? rows[y].op
-                         : rows[y].op == StencilOp::zero ? StencilOp::invert
-                                                         : StencilOp::zero;
+            // The operations of the other two outcomes would leave another value, so the test detects them.
+            const StencilOp other = rows[y].op == StencilOp::zero ? StencilOp::invert : StencilOp::zero;
+            face.fail = outcome == Outcome::fails ? rows[y].op : other;
+            face.zfail = outcome == Outcome::fails_depth ? rows[y].op : other;
+            face.zpass = outcome == Outcome::passes ? rows[y].op : other;
             buffer.draw(static_cast<int>(y), face, outcome, drawn, back);
           }
           buffer.finish();
@@ -150,13 +149,14 @@ TEST(StencilOverflow, EveryOperationOnEveryValueOfEveryWidth) {
         }
 }
 
-TEST(StencilOverflow, TestsCompareWhatTheMaskLeaves) {
+TEST(StencilOverflow, TestsCompareMaskedValues) {
   constexpr std::uint32_t kCompared[] = {0xffffffff, 0, 1, 6, 0x80};
   for (int bits = 1; bits <= 8; ++bits) {
     const std::uint32_t most = (1u << bits) - 1;
     struct Row {
       Compare func;
-      std::uint32_t reference, mask;
+      std::uint32_t reference;
+      std::uint32_t mask;
     };
     std::vector<Row> rows;
     for (int func = 0; func < 8; ++func)
@@ -178,8 +178,8 @@ TEST(StencilOverflow, TestsCompareWhatTheMaskLeaves) {
   }
 }
 
-// In one frame, layer upon layer in one mesh, and in a frame for each.
-TEST(StencilOverflow, CountsStayAtTheEndsOrGoRound) {
+// Many layers within one mesh of one frame, and one frame per layer.
+TEST(StencilOverflow, CountsSaturateOrWrap) {
   constexpr int kLayers = 700;
   MeshData layers;
   for (int i = 0; i < kLayers; ++i) {
@@ -214,9 +214,9 @@ TEST(StencilOverflow, CountsStayAtTheEndsOrGoRound) {
       }
 }
 
-// Shadow volumes: what front faces count up, back faces count down, whichever comes first, and however often
-// it goes round on the way.
-TEST(StencilOverflow, FrontsAndBacksCancelOut) {
+// Shadow volumes: front faces increment and back faces decrement. Any order cancels out, however often the
+// count wraps.
+TEST(StencilOverflow, FrontAndBackFacesCancelOut) {
   Renderer renderer({.threads = 1});
   Random random(3);
   for (int bits = 1; bits <= 8; ++bits) {

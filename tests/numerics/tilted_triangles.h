@@ -1,5 +1,4 @@
-// Triangles of any shape whose depths are tilted in any way, drawn into windows of any: the same ones in each
-// call.
+// Random triangles of any shape and depth gradient in windows of any size; identical in each call.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +17,8 @@
 
 namespace tessera::test {
 
-inline constexpr int kFraction =
-    24;  // depths are whole multiples of 2^-24: floats, and exact in clip space, too
+// Depths are multiples of 2^-24: floats, and exact in clip space as well.
+inline constexpr int kFraction = 24;
 
 /// Ends of the depth range, in eighths.
 struct DepthRange {
@@ -35,7 +34,7 @@ inline std::array<std::int64_t, 3> random_depths(Rng& rng) {
   constexpr std::int64_t kOne = std::int64_t{1} << kFraction;
   std::array<std::int64_t, 3> z{};
   if (rng.between(0, 3) == 0) {
-    // A half is on the border between two levels: what is less by a hair has the one below.
+    // A half lies on the border between two levels; the next smaller depth has the level below.
     z.fill(kOne / 2);
     z[static_cast<std::size_t>(rng.between(0, 2))] = rng.between(0, kOne);
     return z;
@@ -51,7 +50,7 @@ inline std::array<std::int64_t, 3> random_depths(Rng& rng) {
   return z;
 }
 
-// The colour tells which triangle a pixel shows.
+// The colour identifies the triangle of a pixel.
 inline void add(CaseDraw& draw, const Tilted& tilted, std::size_t number, int width, int height) {
   for (std::size_t k = 0; k < 3; ++k) {
     const double z = std::ldexp(static_cast<double>(tilted.z[k]), 1 - kFraction) - 1;
@@ -65,11 +64,13 @@ inline void add(CaseDraw& draw, const Tilted& tilted, std::size_t number, int wi
 }
 inline std::size_t number_of(const std::array<float, 3>& color) {
   const auto byte = [&](std::size_t c) { return static_cast<std::size_t>(std::lround(color[c] * 255)); };
-  return (byte(0) | byte(1) << 8 | byte(2) << 16) - 1;  // the largest there is where nothing was drawn
+  return (byte(0) | byte(1) << 8 | byte(2) << 16) - 1;  // the largest number if nothing was drawn
 }
 
 struct Window {
-  int width, height, frames;
+  int width;
+  int height;
+  int frames;
 };
 inline constexpr Window kWindows[] = {{256, 256, 12}, {16384, 16, 2}, {16, 16384, 2}, {1, 1, 4}};
 
@@ -79,7 +80,7 @@ struct TiltedState {
   std::span<const Window> windows = kWindows;
 };
 
-// Calls pixel(triangle, x, y, what is stored) wherever one is seen.
+// Calls pixel(triangle, x, y, stored depth) for each visible pixel.
 template <class Pixel>
 std::size_t for_each_pixel(const MakeRenderer& make, const DepthCase& depth, WindowShape shape, int rounds,
                            const Pixel& pixel, const TiltedState& state = {}) {
@@ -87,11 +88,11 @@ std::size_t for_each_pixel(const MakeRenderer& make, const DepthCase& depth, Win
   Rng rng(70 + static_cast<std::uint32_t>(shape));
   for (const Window& window : state.windows) {
     const auto renderer = make({.width = window.width, .height = window.height, .depth = depth.format});
-    // Large ones hide each other, needles hardly have a pixel.
-    const std::size_t count = shape == WindowShape::any      ? 8
-                              : shape == WindowShape::needle ? 1000
-                              : shape == WindowShape::small  ? 400
-                                                             : 50;
+    // Large triangles hide each other; needles cover few pixels.
+    std::size_t count = 50;
+    if (shape == WindowShape::any) count = 8;
+    if (shape == WindowShape::needle) count = 1000;
+    if (shape == WindowShape::small) count = 400;
     for (int round = 0; round < rounds * window.frames; ++round) {
       std::vector<Tilted> all;
       CaseDraw draw{.test_depth = true,
@@ -107,8 +108,8 @@ std::size_t for_each_pixel(const MakeRenderer& make, const DepthCase& depth, Win
       for (int y = 0; y < window.height; ++y)
         for (int x = 0; x < window.width; ++x) {
           const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(window.width) +
-                                 static_cast<std::size_t>(x),
-                            number = number_of(picture.colors[at]);
+                                 static_cast<std::size_t>(x);
+          const std::size_t number = number_of(picture.colors[at]);
           if (number >= all.size() || !all[number].triangle.contains(WindowTriangle::center(x, y))) continue;
           pixel(all[number], x, y, picture.depth[at]);
           ++seen;
@@ -118,7 +119,7 @@ std::size_t for_each_pixel(const MakeRenderer& make, const DepthCase& depth, Win
   return seen;
 }
 
-// Of a depth in the whole range, as a part of area 2^kFraction.
+// Depth in the whole range, as a multiple of 1 / (area * 2^kFraction).
 inline Whole depth_numerator(const Tilted& t, const GridPoint& p) {
   return t.triangle.edge(0, p) * t.z[0] + t.triangle.edge(1, p) * t.z[1] + t.triangle.edge(2, p) * t.z[2];
 }

@@ -1,10 +1,9 @@
-// The vertex stage's sums in double, beside what they are exactly: products of matrices, positions in clip
-// space and in eye space, 1/w, and the codes of what lies beside a clip plane. Elements of all sizes at once,
-// and some that cancel out.
+// The vertex stage's sums in double against their exact values: products of matrices, positions in clip space
+// and in eye space, 1/w, and the outcodes of vertices next to a clip plane. Elements of all magnitudes
+// together, and some that cancel out.
 //
-// w = 2^-53, u = 2^-24. Exact is __float128: it has 113 bits, so that a product of two doubles is exact and
-// sums round 2^-60 times as finely as theirs. Of sums that leave next to nothing of their terms, exact are
-// fractions.
+// w = 2^-53, u = 2^-24. Exact values are __float128 with 113 bits: a product of two doubles is exact, and
+// sums round 2^-60 times as finely as in double. For sums that nearly cancel, exact values are fractions.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -27,9 +26,10 @@ __extension__ typedef __float128 Quad;
 
 constexpr long double kDouble = 0x1p-53L, kFloat = 0x1p-24L;
 
-/// Products of four numbers each, and their sum; with the sum of their sizes.
+/// The sum of four products, and the sum of their magnitudes.
 struct Sum {
-  Quad exact = 0, sizes = 0;
+  Quad exact = 0;
+  Quad sizes = 0;
   template <class A, class B>
   Sum(const A& a, const B& b) {
     for (std::size_t k = 0; k < 4; ++k) {
@@ -38,7 +38,7 @@ struct Sum {
       sizes += product < 0 ? -product : product;
     }
   }
-  /// How far `found` is off, of the sum of the sizes; where all of them are 0, so must it be.
+  /// Error of `found` relative to the sum of the magnitudes. If that is 0, `found` must be 0.
   long double error(double found) const {
     return sizes == 0 ? (found == 0 ? 0 : HUGE_VALL)
                       : std::abs(static_cast<long double>((Quad{found} - exact) / sizes));
@@ -47,10 +47,11 @@ struct Sum {
 
 double any_number(Rng& rng, int octaves) {
   const double size = std::exp2(octaves * (2 * rng.unit() - 1));
-  return rng.between(0, 9) == 0 ? 0 : rng.maybe() ? size : -size;
+  if (rng.between(0, 9) == 0) return 0;
+  return rng.maybe() ? size : -size;
 }
 
-/// Elements within 2^20 of each other, of one size, or whole.
+/// Elements within 2^20 of each other, of equal magnitude, or integers.
 std::array<double, 16> any_matrix(Rng& rng) {
   std::array<double, 16> m;
   const int octaves = static_cast<int>(rng.between(0, 2)) * 10;
@@ -58,7 +59,7 @@ std::array<double, 16> any_matrix(Rng& rng) {
   return m;
 }
 
-/// Some of them make a row's products cancel out but for what their roundings to floats leave.
+/// Some points make the products of a row cancel out up to the rounding to float.
 std::array<float, 4> any_point(Rng& rng, const std::array<double, 16>& m) {
   std::array<float, 4> p;
   for (float& c : p) c = static_cast<float>(any_number(rng, 10));
@@ -79,8 +80,8 @@ TEST(TransformRounding, ProductsOfMatrices) {
   long double worst = 0;
   for (int n = 0; n < rounds(20000); ++n) {
     Matrix a{any_matrix(rng)}, b{any_matrix(rng)};
-    if (rng.maybe() && a.m[1] != 0)
-      b.m[4] = -(a.m[0] * b.m[0] + a.m[2] * b.m[8] + a.m[3] * b.m[12]) / a.m[1];  // cancels out in element 0
+    // Cancels out in element 0.
+    if (rng.maybe() && a.m[1] != 0) b.m[4] = -(a.m[0] * b.m[0] + a.m[2] * b.m[8] + a.m[3] * b.m[12]) / a.m[1];
     const Matrix product = a * b;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = 0; k < 4; ++k)
@@ -97,15 +98,15 @@ mpq_class exact_row_times(const std::array<double, 16>& m, std::size_t row, cons
   return sum;
 }
 
-/// How far `found` is off, of what is exact.
+/// Relative error of `found`.
 long double relative_error(double found, const mpq_class& exact) {
   if (!std::isfinite(found)) return HUGE_VALL;
   if (exact == 0) return found == 0 ? 0 : HUGE_VALL;
   return mpq_class(abs(mpq_class(found) / exact - 1)).get_d();
 }
 
-/// Changes the matrix so that a sum of the point's leaves hardly any digit of its terms: w, the distance from
-/// the near or the far plane, or that from the guard band.
+/// Changes the matrix so that one of the sums for the point nearly cancels: w, the distance from the near or
+/// far plane, or the distance from the guard band.
 void cancel(Rng& rng, std::array<double, 16>& m, const std::array<float, 4>& p, double guard) {
   if (p[0] == 0) return;
   const auto any_sign = [&](double size) { return rng.maybe() ? size : -size; };
@@ -125,8 +126,11 @@ void cancel(Rng& rng, std::array<double, 16>& m, const std::array<float, 4>& p, 
 
 TEST(TransformRounding, PositionsInClipSpace) {
   Rng rng(72);
-  long double worst = 0, worst_w = 0, worst_rough = 0;
-  int inexact = 0, smooth = 0;
+  long double worst = 0;
+  long double worst_w = 0;
+  long double worst_rough = 0;
+  int inexact = 0;
+  int smooth = 0;
   for (int n = 0; n < rounds(50000); ++n) {
     std::array<double, 16> m = any_matrix(rng);
     const std::array<float, 4> p = any_point(rng, m);
@@ -158,7 +162,7 @@ TEST(TransformRounding, PositionsInClipSpace) {
                 "2^-52");
 }
 
-// w is a product of two numbers, which rounds once, by w of itself.
+// w is a single product, rounded once, by 2^-53 of itself.
 TEST(TransformRounding, ReciprocalsOfW) {
   Rng rng(75);
   long double worst = 0;
@@ -192,7 +196,7 @@ TEST(TransformRounding, PositionsInEyeSpace) {
   int divided = 0;
   for (int n = 0; n < rounds(1500); ++n) {
     std::array<double, 16> m = any_matrix(rng);
-    for (std::size_t k = 0; k < 4 && n % 4 < 2; ++k) m[12 + k] = k == 3;  // w stays what it is
+    for (std::size_t k = 0; k < 4 && n % 4 < 2; ++k) m[12 + k] = k == 3;  // w is 1
     EyeTransform t;
     std::copy(m.begin(), m.end(), t.eye_from_object);
     std::vector<std::array<float, 4>> points(kVertexBatch);
@@ -206,13 +210,13 @@ TEST(TransformRounding, PositionsInEyeSpace) {
       for (std::size_t i = 0; i < points.size(); ++i) {
         const Sum w = row_times(m, 3, points[i]);
         const Quad size = w.exact < 0 ? -w.exact : w.exact;
-        if (size * 0x1p20L <= w.sizes) continue;  // no digit of a float would be left
+        if (size * 0x1p20L <= w.sizes) continue;  // no digit of a float would remain
         divided += w.exact != 1;
         for (std::size_t row = 0; row < 3; ++row) {
           const Sum sum = row_times(m, row, points[i]);
-          const auto exact = static_cast<long double>(sum.exact / w.exact),
-                     of_sum = static_cast<long double>(sum.sizes / size),
-                     of_w = std::abs(exact) * static_cast<long double>(w.sizes / size);
+          const auto exact = static_cast<long double>(sum.exact / w.exact);
+          const auto of_sum = static_cast<long double>(sum.sizes / size);
+          const auto of_w = std::abs(exact) * static_cast<long double>(w.sizes / size);
           const long double bound = kFloat * std::abs(exact) + 5 * kDouble * (of_sum + of_w) + 0x1p-149L;
           update_worst(worst, std::abs(found[row][i] - exact) / bound);
         }
@@ -223,17 +227,22 @@ TEST(TransformRounding, PositionsInEyeSpace) {
   expect_within("eye-space positions, of u of each and 5 w of the sums of sizes over w", worst, 1, "");
 }
 
-/// Signed distances from the clip planes, positive inside, in the order of their bits; each with the size of
-/// what it is the difference of.
+/// Signed distance from a clip plane, positive inside, with the sum of the magnitudes of its terms.
 struct PlaneDistance {
   std::uint8_t bit;
-  Quad distance, size;
+  Quad distance;
+  Quad size;
 };
 std::array<PlaneDistance, 7> plane_distances(const VertexTransform& t, const ClipPosition& p) {
   const auto of = [](std::uint8_t bit, Quad a, Quad b) {
     return PlaneDistance{bit, a + b, (a < 0 ? -a : a) + (b < 0 ? -b : b)};
   };
-  const Quad gx = Quad{t.guard_x} * p.w, gy = Quad{t.guard_y} * p.w, x = p.x, y = p.y, z = p.z, w = p.w;
+  const Quad gx = Quad{t.guard_x} * p.w;
+  const Quad gy = Quad{t.guard_y} * p.w;
+  const Quad x = p.x;
+  const Quad y = p.y;
+  const Quad z = p.z;
+  const Quad w = p.w;
   return {of(kLeftOfGuardBand, gx, x),
           of(kRightOfGuardBand, gx, -x),
           of(kBelowGuardBand, gy, y),
@@ -243,12 +252,14 @@ std::array<PlaneDistance, 7> plane_distances(const VertexTransform& t, const Cli
           of(kNonPositiveW, w, 0)};
 }
 
-// Coordinates within 8 steps of the planes, which the last column of a matrix gives to the vertex 0 0 0 1:
-// where rounding might decide, codes are exact.
-TEST(TransformRounding, ClipCodes) {
+// Coordinates within 8 steps of the planes, set by the last column of a matrix for the vertex 0 0 0 1.
+// Outcodes are exact where rounding might decide.
+TEST(TransformRounding, Outcodes) {
   Rng rng(74);
   long double worst = 0;
-  std::size_t right = 0, wrong = 0, on_planes = 0;
+  std::size_t right = 0;
+  std::size_t wrong = 0;
+  std::size_t on_planes = 0;
   for (int n = 0; n < rounds(40000); ++n) {
     VertexTransform t;
     const auto width = static_cast<double>(rng.between(1, 16384)),
@@ -293,8 +304,9 @@ TEST(TransformRounding, ClipCodes) {
   }
   EXPECT_GT(right, 100000u);
   EXPECT_GT(on_planes, 5000u);
+  // Includes vertices exactly on a plane.
   expect_within("codes of vertices within 8 steps of a clip plane, wrong", static_cast<long double>(wrong), 0,
-                "codes");  // those on it as well, at distance 0
+                "codes");
   expect_within("distance from a clip plane of vertices on its wrong side, of the sum of sizes",
                 worst / kDouble, 0, "2^-53");
 }

@@ -1,5 +1,5 @@
-// What is drawn under transforms that hardly are any: mirrored ones face as their windows say and are lit by
-// the inverse transpose, singular ones leave planes, lines and points, powers of two leave every bit.
+// Draws under degenerate transforms: mirrored objects face as they appear in the window and are lit by the
+// inverse transpose; singular transforms yield planes, lines and points; powers of two preserve every bit.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,7 @@ constexpr int kSide = 32;
 
 class Canvas {
  public:
-  /// Words of 8 bits for red, green and blue, rows from the top.
+  /// Returns pixels of 8 bits each for red, green and blue, rows from the top.
   std::vector<std::uint32_t> draw(const Mesh& mesh, const DrawState& state, const Camera& camera = {},
                                   const std::vector<Light>& lights = {Light{}},
                                   const LightModel& model = {}) {
@@ -41,9 +41,8 @@ class Canvas {
   FrameBuffer buffer_{FrameBufferFormat{.width = kSide, .height = kSide}};
   Renderer renderer_{RendererOptions{.threads = 1}};
 };
-constexpr std::size_t kMiddle =
-    (kSide / 2 - 1) * kSide +
-    kSide / 2;  ///< to the upper right of the window's centre, where a point at the centre is seen
+/// The pixel to the upper right of the window's centre, which a point at the centre covers.
+constexpr std::size_t kMiddle = (kSide / 2 - 1) * kSide + kSide / 2;
 
 DrawState unlit() {
   DrawState state{.lighting = false};
@@ -69,14 +68,16 @@ Real3 cross(const Real3& a, const Real3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// A large triangle about the middle, under turns and stretches, half of them mirrored. The normal of its
-// plane is what the inverse transpose makes of the object's; which side is seen is the window's matter: a
-// mirrored triangle turns the other way round, and shows its back where its normal faces the eye.
-TEST(MirroredTransforms, FaceAsTheirWindowsSayAndKeepTheirNormals) {
+// A large triangle around the centre, rotated and stretched, half of the time mirrored. Its normal is the
+// inverse transpose applied to the object's normal. The visible side follows from the winding in the window:
+// a mirrored triangle has the opposite winding, so its back is visible where its normal faces the eye.
+TEST(MirroredDraws, FaceByTheirWindowWindingAndKeepTheirNormals) {
   LightingRng rng{std::mt19937(61)};
   Canvas canvas;
   Real worst = 0;
-  int fronts = 0, backs = 0, mirrored = 0;
+  int fronts = 0;
+  int backs = 0;
+  int mirrored = 0;
   for (int n = 0; n < 2000 * (long_tests() ? 30 : 1); ++n) {
     const double x = std::exp2(rng.between(-3, 3)) * (rng.one_in(2) ? -1 : 1),
                  y = std::exp2(rng.between(-3, 3)) * (rng.one_in(2) ? -1 : 1);
@@ -89,16 +90,18 @@ TEST(MirroredTransforms, FaceAsTheirWindowsSayAndKeepTheirNormals) {
       at[k] = transformed(transform, {corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]});
     const Real area = cross(at[1] - at[0], at[2] - at[0])[2];
     const Real3 middle{1.0L / kSide, 1.0L / kSide, 0};
-    Real inside = 1;  // the least of the middle's barycentric coordinates
+    Real inside = 1;  // smallest barycentric coordinate of the centre
     for (std::size_t k = 0; k < 3; ++k)
       inside = std::min(inside, cross(at[(k + 1) % 3] - at[k], middle - at[k])[2] / area);
     if (!(inside > 0.01L) || std::abs(area) < 0.05L) continue;
-    // M^-T (0, 0, 1) is m0 x m1 over the determinant: the cross product of the window's edges, turned round
-    // by a mirror.
-    const Real3 m0 = transformed(transform, {1, 0, 0}), m1 = transformed(transform, {0, 1, 0}),
-                m2 = transformed(transform, {0, 0, 1});
-    const bool is_mirrored = dot(m2, cross(m0, m1)) < 0, clockwise = rng.one_in(2),
-               front = (area > 0) != clockwise;
+    // M^-T (0, 0, 1) is m0 x m1 over the determinant: the cross product of the window's edges, reversed by a
+    // mirror.
+    const Real3 m0 = transformed(transform, {1, 0, 0});
+    const Real3 m1 = transformed(transform, {0, 1, 0});
+    const Real3 m2 = transformed(transform, {0, 0, 1});
+    const bool is_mirrored = dot(m2, cross(m0, m1)) < 0;
+    const bool clockwise = rng.one_in(2);
+    const bool front = (area > 0) != clockwise;
     const Real3 normal = normalized(cross(m0, m1) * (is_mirrored ? -1 : 1));
     const std::array<float, 3> up{0, 0, 1};
     std::vector<float> normals;
@@ -113,7 +116,8 @@ TEST(MirroredTransforms, FaceAsTheirWindowsSayAndKeepTheirNormals) {
     const std::array<float, 3> l = rng.direction();
     const std::vector<Light> lights{Light{.position = {l[0], l[1], l[2], 0}}};
     const LightModel model{.ambient = {0, 0, 0, 1}, .two_sided = true};
-    // Shallow in depth, so that it lies in the view volume; the stretch of the normals is the oracle's, too.
+    // The depth is scaled down so that the triangle lies in the view volume. The oracle applies the same
+    // scale to the normals.
     const std::uint32_t word =
         canvas.draw({.positions = corners, .normals = normals}, state, {}, lights, model)[kMiddle];
     const auto exact = lit_color(front ? state.material : *state.back_material, lights, model, {normal, {}},
@@ -129,9 +133,8 @@ TEST(MirroredTransforms, FaceAsTheirWindowsSayAndKeepTheirNormals) {
   expect_within("lit faces under mirrored transforms", worst, 1, "levels of 255");
 }
 
-// Mirrored and seen with clockwise fronts, a closed mesh shows the same pixels as the mesh that was mirrored
-// by hand.
-TEST(MirroredTransforms, ShowTheirFrontsWhereTheseAreClockwise) {
+// A mirrored closed mesh with clockwise front faces shows the same pixels as a mesh with mirrored vertices.
+TEST(MirroredDraws, MatchMirroredVerticesUnderClockwiseFronts) {
   Canvas canvas;
   const MeshData teapot = builtin_mesh("teapot", 4);
   std::vector<float> by_hand = teapot.positions;
@@ -148,9 +151,8 @@ TEST(MirroredTransforms, ShowTheirFrontsWhereTheseAreClockwise) {
   EXPECT_GT(drawn(expected), 100u);
 }
 
-// A picture of an object 2^-20 as large, or 2^20 times, under the transform that undoes it: no bit is
-// another.
-TEST(ScaledTransforms, ByPowersOfTwoChangeNoBit) {
+// An object scaled by a power of two under the inverse transform: every bit of the picture is the same.
+TEST(ScaledTransforms, PowersOfTwoPreserveEveryBit) {
   Canvas canvas;
   const MeshData teapot = builtin_mesh("teapot", 4);
   const Camera camera{.view = look_at({0, 1, 4}, {0, 0, 0}, {0, 1, 0}),
@@ -174,7 +176,7 @@ TEST(ScaledTransforms, ByPowersOfTwoChangeNoBit) {
                               camera, lights),
                   expected)
             << exponent;
-        // Of an object of the usual size, too, whose normals change with it where nothing normalizes them.
+        // Also with unscaled normals, where the engine normalizes them.
         if (!normalize && shading != Shading::phong) continue;
         const Camera scaled{.view = camera.view, .projection = camera.projection * scale(1, 1, 1)};
         EXPECT_EQ(canvas.draw({.positions = positions, .normals = teapot.normals, .indices = teapot.indices},
@@ -185,8 +187,8 @@ TEST(ScaledTransforms, ByPowersOfTwoChangeNoBit) {
     }
 }
 
-// What an axis of no length leaves: the same as positions without it.
-TEST(SingularTransforms, DrawWhatTheyLeave) {
+// An axis of length 0 gives the same picture as positions without that coordinate.
+TEST(SingularTransforms, DrawTheProjectedGeometry) {
   Canvas canvas;
   const std::vector<float> corners{-0.8f, -0.7f, 0.3f, 0.9f, -0.5f, 0.6f, 0.1f, 0.8f, -0.9f};
   for (const std::array<double, 3>& axes :
@@ -209,7 +211,7 @@ TEST(SingularTransforms, DrawWhatTheyLeave) {
   }
 }
 
-// Lit under singular and huge transforms: nothing that is no number eats the ambient part.
+// Lighting under singular and huge transforms: no NaN removes the ambient part.
 TEST(SingularTransforms, KeepTheAmbientPart) {
   LightingRng rng{std::mt19937(62)};
   Canvas canvas;
@@ -238,11 +240,12 @@ TEST(SingularTransforms, KeepTheAmbientPart) {
   }
 }
 
-// Projections that are none: every vertex is behind the eye, and nothing else happens.
-TEST(SingularTransforms, OfTheCameraDrawNothing) {
+// Degenerate projections: every vertex is behind the eye, and nothing is drawn.
+TEST(SingularTransforms, DegenerateProjectionsDrawNothing) {
   Canvas canvas;
   const MeshData teapot = builtin_mesh("teapot", 2);
-  Matrix nothing, no_w = scale(1, 1, 1);
+  Matrix nothing;
+  Matrix no_w = scale(1, 1, 1);
   nothing.m.fill(0);
   no_w.m[15] = 0;
   for (const Matrix& projection : {nothing, no_w}) {

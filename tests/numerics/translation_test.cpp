@@ -1,5 +1,5 @@
-// A scene that its viewport moves by whole pixels keeps its bits, to the far corner of the largest buffer,
-// wherever the borders of tiles fall; and nothing leaves the viewport.
+// A viewport that moves by whole pixels keeps every bit of its scene, up to the far corner of the largest
+// buffer, wherever tile borders fall; and nothing is drawn outside the viewport.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,11 +16,12 @@
 namespace tessera::test {
 namespace {
 
-// The window that moves, and buffers that are as long as can be in one direction and a little longer than it
-// in the other.
-constexpr int kWidth = 61, kHeight = 45, kAcross = 80;
+// Size of the moving window. Buffers have the maximum size in one direction and kAcross pixels in the other.
+constexpr int kWidth = 61;
+constexpr int kHeight = 45;
+constexpr int kAcross = 80;
 
-// Triangles of all sizes, many of them clipped, lines, points, in colours and with textures.
+// Triangles of all sizes, many of them clipped, lines and points, coloured and textured.
 std::vector<CaseDraw> random_scene(MeshRandom& random) {
   std::vector<CaseDraw> draws;
   for (const Primitive primitive : {Primitive::triangles, Primitive::triangles, Primitive::lines,
@@ -31,7 +32,8 @@ std::vector<CaseDraw> random_scene(MeshRandom& random) {
     draw.textured = draws.size() == 2;
     for (int vertex = 0; vertex < 60; ++vertex) {
       const auto any = [&](double reach) { return static_cast<float>(reach * (2 * random.unit() - 1)); };
-      const float w = any(1) + 0.8f, size = random.between(0, 7) == 0 ? 40.0f : 1.2f;
+      const float w = any(1) + 0.8f;
+      const float size = random.between(0, 7) == 0 ? 40.0f : 1.2f;
       draw.positions.insert(draw.positions.end(), {any(size), any(size), any(1.2), w});
       for (int c = 0; c < 4; ++c) draw.colors.push_back(static_cast<float>(random.unit()));
       draw.texcoords.insert(draw.texcoords.end(), {any(3), any(3)});
@@ -41,7 +43,8 @@ std::vector<CaseDraw> random_scene(MeshRandom& random) {
 }
 
 std::vector<Rect> places(MeshRandom& random, const CaseFormat& buffer) {
-  const int far_x = buffer.width - kWidth, far_y = buffer.height - kHeight;
+  const int far_x = buffer.width - kWidth;
+  const int far_y = buffer.height - kHeight;
   return {{far_x, far_y, kWidth, kHeight},
           {random.between(0, far_x), random.between(0, far_y), kWidth, kHeight}};
 }
@@ -62,8 +65,8 @@ std::array<long, 3> levels(const std::array<float, 3>& color) {
   return {std::lround(color[0] * 255), std::lround(color[1] * 255), std::lround(color[2] * 255)};
 }
 
-// Of all pixels of the buffer: those of the window have to be what they are in a buffer of their own, all
-// others as they are cleared.
+// Compares all pixels of the buffer: the window with the picture of a separate buffer, the rest with the
+// clear values.
 void compare(const CasePicture& alone, const CasePicture& moved, const CaseFormat& buffer, const Rect& place,
              std::uint32_t cleared_depth, Changes& changes) {
   for (int row = 0; row < buffer.height; ++row)
@@ -71,8 +74,8 @@ void compare(const CasePicture& alone, const CasePicture& moved, const CaseForma
       const int x = column - place.x, y = row - (buffer.height - place.y - kHeight);
       const bool inside = x >= 0 && y >= 0 && x < kWidth && y < kHeight;
       const auto there = static_cast<std::size_t>(row) * static_cast<std::size_t>(buffer.width) +
-                         static_cast<std::size_t>(column),
-                 here = inside ? static_cast<std::size_t>(y * kWidth + x) : 0;
+                         static_cast<std::size_t>(column);
+      const auto here = inside ? static_cast<std::size_t>(y * kWidth + x) : 0;
       changes.seen +=
           inside && levels(alone.colors[here]) != std::array<long, 3>{} && alone.depth[here] != cleared_depth;
       changes.colors +=
@@ -85,7 +88,7 @@ Changes changes_of(const MakeRenderer& make, bool is_tessera, DepthFormat depth,
                    std::uint32_t cleared_depth) {
   Changes changes;
   const int scenes = is_tessera && long_tests() ? 40 : 3;
-  std::vector<CasePicture> alone;  // one renderer after the other: Mesa's contexts are current one at a time
+  std::vector<CasePicture> alone;  // One renderer at a time: only one of Mesa's contexts can be current.
   {
     const std::unique_ptr<CaseRenderer> renderer = make(format_of(kWidth, kHeight, depth));
     for (int n = 0; n < scenes; ++n) {
@@ -115,7 +118,7 @@ Changes changes_of(const MakeRenderer& make, bool is_tessera, DepthFormat depth,
   return changes;
 }
 
-TEST(Translation, ChangesNeitherColorsNorDepths) {
+TEST(ViewportTranslation, ChangesNeitherColorsNorDepths) {
   struct Depth {
     DepthFormat format;
     std::string name;
@@ -125,7 +128,8 @@ TEST(Translation, ChangesNeitherColorsNorDepths) {
        {Depth{DepthFormat::unorm16, "unorm16", 0xffffu}, Depth{DepthFormat::unorm24, "unorm24", 0xffffffu},
         Depth{DepthFormat::unorm32, "unorm32", 0xffffffffu},
         Depth{DepthFormat::float32, "float32", 0x3f800000u}}) {
-    Changes ours, mesas;
+    Changes ours;
+    Changes mesas;
     bool has_mesa = false;
     expect_figure("moved by whole pixels: colours change, " + depth.name, 0, "pixels",
                   [&](const MakeRenderer& make, bool is_tessera) {
@@ -140,8 +144,8 @@ TEST(Translation, ChangesNeitherColorsNorDepths) {
   }
 }
 
-// With lights, mipmaps, wide lines, large points, offsets and stencil: what only Tessera draws. All of it in
-// the window alone.
+// Lights, mipmaps, wide lines, large points, polygon offset and stencil, which only Tessera draws. Everything
+// is inside the window.
 class RichScene {
  public:
   RichScene() {
@@ -180,15 +184,19 @@ class RichScene {
   }
 
  private:
-  std::vector<float> positions_, normals_, texcoords_;
+  std::vector<float> positions_;
+  std::vector<float> normals_;
+  std::vector<float> texcoords_;
   std::optional<Texture> texture_;
 };
 
-/// All that a buffer stores in the window.
+/// All stored values of the window.
 std::vector<std::uint32_t> stored(const FrameBuffer& buffer, const Rect& place) {
   const FrameBufferFormat& format = buffer.format();
   const auto pixels = static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
-  std::vector<std::uint32_t> colors(pixels), depths(pixels), all;
+  std::vector<std::uint32_t> colors(pixels);
+  std::vector<std::uint32_t> depths(pixels);
+  std::vector<std::uint32_t> all;
   std::vector<std::uint8_t> stencil(pixels);
   buffer.read_color_words(colors);
   buffer.read_depth_words(depths);
@@ -202,7 +210,7 @@ std::vector<std::uint32_t> stored(const FrameBuffer& buffer, const Rect& place) 
   return all;
 }
 
-TEST(Translation, OfLightTexturesStencilAndSamplesChangesNothing) {
+TEST(ViewportTranslation, ChangesNoLitTexturedStencilledOrSampledPixel) {
   const RichScene scene;
   Renderer renderer({.threads = 1});
   for (const int samples : {1, 4, 8}) {
@@ -232,9 +240,9 @@ TEST(Translation, OfLightTexturesStencilAndSamplesChangesNothing) {
   }
 }
 
-// Both sides 16,384: of an image that is written in part, no plane is kept, and only the window's tiles are
-// drawn.
-TEST(Translation, ReachesTheFarCornerOfTheLargestBuffer) {
+// 16,384 pixels on both sides. With a partial image target no plane is stored, and only the window's tiles
+// are drawn.
+TEST(ViewportTranslation, ReachesTheFarCornerOfTheLargestBuffer) {
   const RichScene scene;
   Renderer renderer({.threads = 1});
   constexpr int kFar = kMaxFrameBufferSize;
@@ -242,7 +250,7 @@ TEST(Translation, ReachesTheFarCornerOfTheLargestBuffer) {
     FrameBuffer buffer({.width = width, .height = height});
     Frame frame(buffer);
     scene.record(frame, place);
-    // Addresses of all of the image; memory is touched in the window alone.
+    // Allocates address space for the whole image; only the window's memory is touched.
     const auto image = std::make_unique_for_overwrite<std::uint32_t[]>(static_cast<std::size_t>(width) *
                                                                        static_cast<std::size_t>(height));
     renderer.finish(frame, {.pixels = image.get(),

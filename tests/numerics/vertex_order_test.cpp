@@ -1,5 +1,5 @@
-// Neither coverage nor depth depends on which vertex of a triangle comes first, or on the way round: whole
-// and clipped triangles in all six orders.
+// Neither coverage nor depth depends on the order of a triangle's vertices or on its winding: whole and
+// clipped triangles in all six orders.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,9 +14,13 @@
 namespace tessera::test {
 namespace {
 
-// Each triangle has a viewport of its own in a buffer of many, so that the borders of tiles run through each
-// of them elsewhere.
-constexpr int kView = 32, kPitch = 37, kRow = 13, kBuffer = kRow * kPitch, kBatch = kRow * kRow;
+// Each triangle has its own viewport in a large buffer, so that tile borders cross each one at a different
+// place.
+constexpr int kView = 32;
+constexpr int kPitch = 37;
+constexpr int kRow = 13;
+constexpr int kBuffer = kRow * kPitch;
+constexpr int kBatch = kRow * kRow;
 
 using Corners = std::array<std::array<float, 4>, 3>;
 
@@ -51,7 +55,7 @@ std::vector<CaseDraw> draws_of(const std::vector<Corners>& triangles,
   return draws;
 }
 
-// Pixels whose `bits` under any other order are others than under the first.
+// Number of pixels whose coverage or depth under any other order differs from the first.
 long double changed_pixels(const MakeRenderer& make, bool is_tessera, DepthFormat depth, bool clipped,
                            bool coverage) {
   const std::unique_ptr<CaseRenderer> renderer = make({.width = kBuffer, .height = kBuffer, .depth = depth});
@@ -80,7 +84,7 @@ long double changed_pixels(const MakeRenderer& make, bool is_tessera, DepthForma
   return changed;
 }
 
-TEST(VertexOrder, ChangesNeitherCoverageNorDepth) {
+TEST(VertexOrder, AffectsNeitherCoverageNorDepth) {
   const std::pair<DepthFormat, std::string> formats[] = {{DepthFormat::unorm16, "unorm16"},
                                                          {DepthFormat::unorm24, "unorm24"},
                                                          {DepthFormat::unorm32, "unorm32"},

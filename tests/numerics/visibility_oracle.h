@@ -1,4 +1,5 @@
-// Random triangles, each nearer than all before it, and whose pixels are whose, in 128-bit integers.
+// Random triangles, each nearer than all before it, and the visible triangle of each pixel from 128-bit
+// integers.
 #pragma once
 
 #include <algorithm>
@@ -15,18 +16,17 @@
 
 namespace tessera::test {
 
-/// Drawn into a buffer of kSide x kSide pixels over black, all of it in a window's corners, so that clip
-/// space holds them exactly. Colours, texels and depths of a triangle are everywhere the same, and levels of
-/// all formats.
+/// Triangles for a buffer of kSide x kSide pixels over black. Corners are window coordinates that clip space
+/// holds exactly. Colour, texel and depth are constant over a triangle and exact levels in all formats.
 class VisibilityOracle {
  public:
   static constexpr int kSide = 128;        ///< pixels
   static constexpr int kTextureSide = 64;  ///< texels
-  static constexpr std::size_t kMaxTriangleCount =
-      2047;  ///< triangles: depths are 1 - k/4096, above a half, whose
-             ///< levels are integers and less than half of one
+  /// Depths are 1 - k/4096, above 1/2, where their levels are exact to less than half a level in every
+  /// format.
+  static constexpr std::size_t kMaxTriangleCount = 2047;
 
-  /// Of all shapes, over each other.
+  /// Overlapping triangles of all shapes.
   static VisibilityOracle of_shapes(int n) {
     VisibilityOracle owned;
     RandomTriangles random(static_cast<std::uint32_t>(n), 64);
@@ -39,7 +39,7 @@ class VisibilityOracle {
     owned.find_visible_triangles();
     return owned;
   }
-  /// A grid of about `cell` pixels a cell, its vertices moved by up to a third of that.
+  /// A grid of cells of about `cell` pixels; vertices are moved by up to a third of a cell.
   static VisibilityOracle of_grid(int n, double cell) {
     VisibilityOracle owned;
     MeshRandom random(n);
@@ -58,7 +58,10 @@ class VisibilityOracle {
     const auto point = [&](int i, int j) { return points[static_cast<std::size_t>(j * (cells + 1) + i)]; };
     for (int j = 0; j < cells; ++j)
       for (int i = 0; i < cells; ++i) {
-        const WindowVertex p = point(i, j), q = point(i + 1, j), r = point(i + 1, j + 1), s = point(i, j + 1);
+        const WindowVertex p = point(i, j);
+        const WindowVertex q = point(i + 1, j);
+        const WindowVertex r = point(i + 1, j + 1);
+        const WindowVertex s = point(i, j + 1);
         owned.add({p, q, r});
         owned.add(random.coin() ? Triangle{p, r, s} : Triangle{s, r, p});
       }
@@ -66,19 +69,24 @@ class VisibilityOracle {
     return owned;
   }
 
-  std::vector<float> positions{}, colors{}, normals{}, texcoords{};  ///< x y z, r g b a, x y z, s t
-  std::uint64_t covered = 0;  ///< pixels, each as often as triangles cover it
+  std::vector<float> positions{};  ///< x y z
+  std::vector<float> colors{};     ///< r g b a
+  std::vector<float> normals{};    ///< x y z
+  std::vector<float> texcoords{};  ///< s t
+  std::uint64_t covered = 0;       ///< sum over the triangles of their covered pixels
 
   std::uint32_t times(std::size_t pixel) const { return times_[pixel]; }
-  /// What a pixel, counted from the top left, holds in the end.
+  /// Final value of a pixel, counted from the top left.
   std::uint32_t color_word(std::size_t pixel) const { return times_[pixel] == 0 ? 0 : word_of(last_[pixel]); }
   std::uint32_t depth_word(std::size_t pixel, DepthFormat format) const {
     const double depth = times_[pixel] == 0 ? 1 : depth_of(last_[pixel]);
     if (format == DepthFormat::float32) return std::bit_cast<std::uint32_t>(static_cast<float>(depth));
-    const int bits = format == DepthFormat::unorm16 ? 16 : format == DepthFormat::unorm24 ? 24 : 32;
+    int bits = 32;
+    if (format == DepthFormat::unorm16) bits = 16;
+    if (format == DepthFormat::unorm24) bits = 24;
     return static_cast<std::uint32_t>(std::floor(depth * (std::exp2(bits) - 1) + 0.5));
   }
-  /// RGBA, rows from the bottom: texel (i, j) is triangle i + 64 j's.
+  /// RGBA, rows from the bottom: texel (i, j) belongs to triangle i + 64 j.
   static std::vector<std::uint8_t> texels() {
     std::vector<std::uint8_t> texels;
     for (std::uint32_t id = 0; id < kTextureSide * kTextureSide; ++id) {

@@ -1,5 +1,4 @@
-// Triangles whose vertices stand on the grid that vertices are snapped to, and what is exact about them:
-// edges in 128-bit integers.
+// Triangles whose vertices lie on the snapping grid, with exact edge functions in 128-bit integers.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +13,9 @@ namespace tessera::test {
 
 __extension__ using Whole = __int128;
 
-inline constexpr int kGrid = 256;  ///< steps a pixel
+inline constexpr int kGrid = 256;  ///< steps per pixel
 
-/// In 1/256 pixel from the window's upper left corner, y down.
+/// A point in 1/256 pixel from the window's upper left corner, y down.
 struct GridPoint {
   std::int64_t x = 0, y = 0;
 };
@@ -24,14 +23,15 @@ struct GridPoint {
 struct WindowTriangle {
   std::array<GridPoint, 3> at;
 
-  /// Twice the area that vertex k's opposite edge makes with a point: positive within, whatever the winding.
+  /// Twice the area of the triangle between vertex k's opposite edge and a point: positive inside, for either
+  /// winding.
   Whole edge(std::size_t k, const GridPoint& p) const {
     const GridPoint &a = at[(k + 1) % 3], &b = at[(k + 2) % 3];
     const Whole side = Whole{b.x - a.x} * (p.y - a.y) - Whole{b.y - a.y} * (p.x - a.x);
     return signed_area() < 0 ? -side : side;
   }
   Whole area() const { return signed_area() < 0 ? -signed_area() : signed_area(); }
-  /// The vertex with the least y, of several the one with the least x.
+  /// The vertex with the smallest y; among equals, the one with the smallest x.
   std::size_t topmost() const {
     const auto above = [](const GridPoint& a, const GridPoint& b) {
       return a.y < b.y || (a.y == b.y && a.x < b.x);
@@ -57,7 +57,7 @@ inline double clip_y(std::int64_t y, int height) {
   return 1 - static_cast<double>(y) / (kGrid / 2.0 * height);
 }
 
-/// The same numbers on every machine and library.
+/// Random numbers that are identical on every machine and standard library.
 struct Rng {
   std::mt19937 random;
   explicit Rng(std::uint32_t seed) : random(seed) {}
@@ -83,7 +83,7 @@ enum class WindowShape {
 inline constexpr WindowShape kWindowShapes[] = {WindowShape::small, WindowShape::any, WindowShape::centers,
                                                 WindowShape::sliver, WindowShape::needle};
 
-/// Of some area; near enough to the window to be drawn without a cut.
+/// A triangle of positive area, close enough to the window to be drawn without clipping.
 inline WindowTriangle random_triangle(Rng& rng, WindowShape shape, int width, int height) {
   const std::int64_t w = std::int64_t{width} * kGrid, h = std::int64_t{height} * kGrid;
   const auto anywhere = [&] {
@@ -113,14 +113,19 @@ inline WindowTriangle random_triangle(Rng& rng, WindowShape shape, int width, in
         break;
       }
       case WindowShape::needle: {
-        // From a pixel's centre through other centres; Euclid's algorithm finds the third vertex, nearest to
-        // the line.
+        // From a pixel's centre through other centres. Euclid's algorithm finds the third vertex, closest to
+        // that line.
         a = {(a.x & -kGrid) + kGrid / 2, (a.y & -kGrid) + kGrid / 2};
         const std::int64_t turns = rng.between(1, 4);
         const std::int64_t dx = (b.x - a.x) / kGrid * kGrid, dy = (b.y - a.y) / kGrid * kGrid;
         const std::int64_t step_x = dx + rng.between(-1, 1), step_y = dy + rng.between(-1, 1);
         b = {a.x + step_x, a.y + step_y};
-        std::int64_t r0 = step_x, r1 = step_y, s0 = 1, s1 = 0, t0 = 0, t1 = 1;
+        std::int64_t r0 = step_x;
+        std::int64_t r1 = step_y;
+        std::int64_t s0 = 1;
+        std::int64_t s1 = 0;
+        std::int64_t t0 = 0;
+        std::int64_t t1 = 1;
         while (r1 != 0) {
           const std::int64_t q = r0 / r1;
           std::swap(r0 -= q * r1, r1);
@@ -132,8 +137,10 @@ inline WindowTriangle random_triangle(Rng& rng, WindowShape shape, int width, in
       }
     }
     const bool drawn_whole = std::all_of(t.at.begin(), t.at.end(), [&](const GridPoint& p) {
-      return p.x >= -w && p.x <= 2 * w && p.y >= -h && p.y <= 2 * h &&
-             std::abs(p.x - w / 2) < 16000 * kGrid && std::abs(p.y - h / 2) < 16000 * kGrid;
+      const bool is_near_window = p.x >= -w && p.x <= 2 * w && p.y >= -h && p.y <= 2 * h;
+      const bool is_in_guard_band =
+          std::abs(p.x - w / 2) < 16000 * kGrid && std::abs(p.y - h / 2) < 16000 * kGrid;
+      return is_near_window && is_in_guard_band;
     });
     if (drawn_whole && t.area() > 0) {
       std::rotate(t.at.begin(), t.at.begin() + rng.between(0, 2), t.at.end());

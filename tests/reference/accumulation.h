@@ -1,5 +1,5 @@
-// The arithmetic of the accumulation buffer: signed components, 1.0 is 32767 or 2^31 - 1. What leaves the
-// range of the signed integer stays at its end.
+// Arithmetic of the accumulation buffer: signed components, 1.0 is 32767 or 2^31 - 1. Results saturate at the
+// ends of the signed integer's range.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@ namespace tessera::reference {
 /// Red, green, blue, alpha.
 using AccumPixel = std::array<std::int32_t, 4>;
 
-/// @param value  rounded to the nearest level, halves up, as every stored level is.
+/// Rounds each component to the nearest level, halves up, like every stored level.
 AccumPixel accum_levels(Vec4 value, int bits);
 
-/// One pixel after any operation but kReturn.
+/// Accumulation value of one pixel after any operation but kReturn.
 /// @param color  as read back from the colour buffer; used by kAccum and kLoad.
 AccumPixel accumulated(AccumOp op, double value, const AccumPixel& stored, Vec4 color, int bits);
 

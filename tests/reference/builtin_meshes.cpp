@@ -37,7 +37,8 @@ Mesh sphere(int n) {
 }
 
 Mesh torus(int n) {
-  constexpr double kRing = 0.7, kTube = 0.3;
+  constexpr double kRing = 0.7;
+  constexpr double kTube = 0.3;
   Mesh mesh;
   append_quads(mesh, 2 * n, n, [](double s, double t) {
     const auto [cs, ss] = circle(s);
@@ -74,7 +75,7 @@ Mesh grid(int n) {
   return mesh;
 }
 
-// A disc of 2n triangles around its centre, at height y, facing `up` (+1 or -1).
+// A disc of 2n triangles around its centre at height y, facing `up` (+1 or -1).
 void append_cap(Mesh& mesh, int n, double y, double up) {
   append_quads(mesh, 2 * n, 1, [&](double s, double t) {
     return SurfacePoint{around_y(up * s, 1 - t, y), {0, up, 0}};
@@ -91,8 +92,8 @@ Mesh cylinder(int n) {
   return mesh;
 }
 
-// Height 2 over radius 1: the side's normal is (2 cos, 1, 2 sin) / sqrt 5. At the apex each wedge keeps its
-// own normals.
+// Height 2, radius 1: the side's normal is (2 cos, 1, 2 sin) / sqrt 5. At the apex each wedge keeps its own
+// normals.
 Mesh cone(int n) {
   Mesh mesh;
   append_quads(mesh, 2 * n, 1, [](double s, double t) {

@@ -13,23 +13,23 @@ namespace tessera::reference {
 /// @throws std::runtime_error for any other name or detail, or if the teapot's patches cannot be read.
 Mesh builtin_mesh(const std::string& name, int detail);
 
-/// Where the teapot's patches are read from; by default the file named by the macro TESSERA_TEAPOT_PATCHES.
+/// Sets the file of the teapot's patches. Default: the macro TESSERA_TEAPOT_PATCHES.
 void set_teapot_patches(const std::string& path);
 
 /// The 32 bicubic patches at detail x detail quads each.
 Mesh teapot_mesh(int detail);
 
-/// One corner of a patch of quads, before it becomes a mesh.
+/// Vertex of a patch of quads.
 struct SurfacePoint {
   Vec3 position;
   Vec3 normal;
 };
 
 /// Appends a patch of columns x rows quads, each split along the diagonal from its corner with the lowest s
-/// and t. Triangles without area (at a collapsed row) are left out.
+/// and t. Triangles without area (at a collapsed row) are omitted.
 ///
-/// @param surface  called with (s, t), s = i / columns, t = j / rows; counter-clockwise where s grows to the
-/// right, t upwards.
+/// @param surface  called with (s, t), s = i / columns, t = j / rows; counter-clockwise if s grows to the
+///     right and t upwards.
 template <class Surface>
 void append_quads(Mesh& mesh, int columns, int rows, const Surface& surface) {
   const auto base = static_cast<std::uint32_t>(mesh.positions.size());
@@ -42,7 +42,9 @@ void append_quads(Mesh& mesh, int columns, int rows, const Surface& surface) {
     }
   const auto corner = [&](int i, int j) { return base + static_cast<std::uint32_t>(j * (columns + 1) + i); };
   const auto append_triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const Vec3 pa = xyz(mesh.positions[a]), pb = xyz(mesh.positions[b]), pc = xyz(mesh.positions[c]);
+    const Vec3 pa = xyz(mesh.positions[a]);
+    const Vec3 pb = xyz(mesh.positions[b]);
+    const Vec3 pc = xyz(mesh.positions[c]);
     constexpr double kNoArea = 1e-14;
     if (length(cross(pb - pa, pc - pa)) > kNoArea) mesh.indices.insert(mesh.indices.end(), {a, b, c});
   };

@@ -4,7 +4,7 @@
 namespace tessera::reference {
 namespace {
 
-/// Inside is where x px + y py + z pz + w pw + offset >= 0.
+/// The inside is x px + y py + z pz + w pw + offset >= 0.
 struct Plane {
   Vec4 normal;
   double offset = 0;
@@ -15,9 +15,11 @@ struct Plane {
 };
 
 std::vector<Plane> planes_of(const ClipVolume& volume) {
-  constexpr double kLeastW = 1e-30;  // w > 0
-  std::vector<Plane> planes{{{0, 0, 0, 1}, -kLeastW}};
-  const Plane w_minus_z{{0, 0, -1, 1}}, w_plus_z{{0, 0, 1, 1}}, z{{0, 0, 1, 0}};
+  constexpr double kMinW = 1e-30;  // w > 0
+  std::vector<Plane> planes{{{0, 0, 0, 1}, -kMinW}};
+  const Plane w_minus_z{{0, 0, -1, 1}};
+  const Plane w_plus_z{{0, 0, 1, 1}};
+  const Plane z{{0, 0, 1, 0}};
   planes.push_back(volume.reversed ? w_minus_z : w_plus_z);
   if (!volume.infinite_far) planes.push_back(volume.reversed ? z : w_minus_z);
   for (const double side : {-1.0, 1.0}) {
@@ -27,11 +29,12 @@ std::vector<Plane> planes_of(const ClipVolume& volume) {
   return planes;
 }
 
-// Always from the inside to the outside: the two triangles that share an edge then get the very same point.
-// Written so that a component equal at both ends stays exactly what it is.
+// Always computed from the inside to the outside, so that the two triangles that share an edge get the same
+// point. Formulated so that a component equal at both ends keeps its exact value.
 ClipVertex crossing(const ClipVertex& inside, const ClipVertex& outside, double t) {
   const auto mix = [t](double a, double b) { return a + t * (b - a); };
-  const Vec4 p = inside.position, q = outside.position;
+  const Vec4 p = inside.position;
+  const Vec4 q = outside.position;
   ClipVertex vertex{{mix(p.x, q.x), mix(p.y, q.y), mix(p.z, q.z), mix(p.w, q.w)}, inside.weights};
   for (std::size_t i = 0; i < vertex.weights.size(); ++i)
     vertex.weights[i] = mix(inside.weights[i], outside.weights[i]);
@@ -68,7 +71,8 @@ std::vector<ClipVertex> clip_polygon(std::vector<ClipVertex> polygon, const Clip
 
 std::vector<ClipVertex> clip_line(ClipVertex from, ClipVertex to, const ClipVolume& volume) {
   for (const Plane& plane : planes_of(volume)) {
-    const double d_from = plane.distance(from.position), d_to = plane.distance(to.position);
+    const double d_from = plane.distance(from.position);
+    const double d_to = plane.distance(to.position);
     if (d_from < 0 && d_to < 0) return {};
     if (d_from < 0) from = crossing(to, from, d_to / (d_to - d_from));
     else if (d_to < 0) to = crossing(from, to, d_from / (d_from - d_to));

@@ -7,11 +7,11 @@
 
 namespace tessera::reference {
 
-/// How much of each of a primitive's corners a point of it is made of; the shares sum to 1. Every quantity
-/// that is linear in object space is the same mixture of its values at the corners.
+/// Weights of a point with respect to the corners of its primitive; they sum to 1. Every quantity that is
+/// linear in object space is interpolated with these weights.
 using CornerWeights = std::vector<double>;
 
-/// A corner of what is left after clipping, or of what goes in.
+/// A corner before or after clipping.
 struct ClipVertex {
   Vec4 position;
   CornerWeights weights;
@@ -20,8 +20,8 @@ struct ClipVertex {
 /// Corner `index` of a primitive of `count` corners, at `position`.
 ClipVertex corner_vertex(Vec4 position, std::size_t index, std::size_t count);
 
-/// What to clip against besides w > 0 and the near and far plane of the camera: |x| <= guard_x w and |y| <=
-/// guard_y w, far outside the picture, so that window coordinates stay within the bounds of exact arithmetic.
+/// Clip volume: w > 0, the camera's near and far plane, |x| <= guard_x w and |y| <= guard_y w. The guard band
+/// lies far outside the picture and keeps window coordinates within the bounds of exact arithmetic.
 struct ClipVolume {
   bool reversed = false;
   bool infinite_far = false;
@@ -29,17 +29,17 @@ struct ClipVolume {
   double guard_y = 0;
 };
 
-/// The convex polygon that is left of one, in its winding order; empty if nothing is.
+/// Returns the clipped convex polygon in its winding order; empty if nothing remains.
 std::vector<ClipVertex> clip_polygon(std::vector<ClipVertex> polygon, const ClipVolume& volume);
 
-/// The segment that is left of one, in its direction; empty if nothing is.
+/// Returns the clipped segment in its direction; empty if nothing remains.
 std::vector<ClipVertex> clip_line(ClipVertex from, ClipVertex to, const ClipVolume& volume);
 
-/// Whether a point is drawn: not only the near and far plane but the sides of the view volume too decide by
-/// its centre, whatever its size [GL 2.1, 2.12].
+/// Whether a point is drawn. Its centre must be inside the near and far plane and inside the sides of the
+/// view volume, whatever its size [GL 2.1, 2.12].
 bool is_in_view(Vec4 position, const ClipVolume& volume);
 
-/// The same for the corner of a clipped polygon, for which the near and far plane have been asked.
+/// Same for the corner of a clipped polygon, which is already inside the near and far plane.
 bool is_between_sides(Vec4 position);
 
 }  // namespace tessera::reference

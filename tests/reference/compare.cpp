@@ -17,7 +17,8 @@ std::size_t byte_at(int x, int y, int channel, int width_px) {
 
 bool is_interior(std::span<const std::uint8_t> rgb, int x, int y, int width_px, int height_px) {
   for (int channel = 0; channel < 3; ++channel) {
-    int least = 255, most = 0;
+    int least = 255;
+    int most = 0;
     for (int ny = std::max(0, y - 1); ny <= std::min(height_px - 1, y + 1); ++ny)
       for (int nx = std::max(0, x - 1); nx <= std::min(width_px - 1, x + 1); ++nx) {
         const int level = rgb[byte_at(nx, ny, channel, width_px)];

@@ -1,4 +1,4 @@
-// Comparing a picture with the reference, and files to look at.
+// Comparison of a picture with the reference, and picture files for inspection.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace tessera::reference {
 
-/// A pixel is interior if the reference's 3x3 pixels around it (as far as they are in the picture) span less
-/// than this in every channel.
+/// A pixel is interior if the reference's 3x3 pixels around it (within the picture) span less than this in
+/// every channel.
 inline constexpr int kInteriorSpan = 24;
-/// A pixel differs if a channel is more than this many levels apart.
+/// A pixel differs if the difference of a channel exceeds this number of levels.
 inline constexpr int kTolerance = 2;
 
 struct Counts {

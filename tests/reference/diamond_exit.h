@@ -7,8 +7,7 @@
 namespace tessera::reference {
 
 /// Whether the segment from `a` to `b` meets the diamond around `centre` and does not end in it. Both ends
-/// are shifted by
-/// (-e, -e^2), e infinitely small, so that nothing lies on a diamond's border.
+/// are shifted by (-e, -e^2), e infinitely small, so that no point lies on a diamond's border.
 /// @pre coordinates are within kExtent pixels of the viewport's centre.
 bool exits_diamond(Point a, Point b, Point centre);
 

@@ -34,7 +34,7 @@ std::optional<TextureSampler> sampler(const Draw& draw, const Scene& scene) {
   return TextureSampler(scene.textures.at(*draw.texture));
 }
 
-// The same draw in one colour, projected after the object's transform.
+// The draw of the shadow: one colour, projected after the object's transform.
 Draw shadow_of(const Draw& draw, const std::vector<Light>& lights) {
   Draw shadow = draw;
   const Mat4 projection = shadow_matrix(draw.shadow_on->plane, lights.at(draw.shadow_on->light)).value();
@@ -95,8 +95,8 @@ class MeshDrawing {
   }
 
   void draw_line(const Corners& corners) {
-    const std::vector<ClipVertex> vertices = clip_vertices(corners),
-                                  line = clip_line(vertices[0], vertices[1], volume_);
+    const std::vector<ClipVertex> vertices = clip_vertices(corners);
+    const std::vector<ClipVertex> line = clip_line(vertices[0], vertices[1], volume_);
     if (line.empty()) return;
     const PrimitiveShader shader(corners, kIsBack, colors_);
     FragmentPipeline pipeline = this->pipeline(shader, kIsBack);
@@ -104,7 +104,7 @@ class MeshDrawing {
                    kNoOffset, window_, [&](const Fragment& fragment) { pipeline.take(fragment); });
   }
 
-  // Facing, culling and offset are those of the whole polygon, whatever it splits into.
+  // Facing, culling and offset are determined by the whole polygon, however it is split.
   void draw_polygon(const Corners& corners) {
     const std::vector<ClipVertex> vertices = clip_vertices(corners);
     std::vector<WindowPolygon> triangles;
@@ -130,8 +130,8 @@ class MeshDrawing {
     }
   }
 
-  // Edges that clipping has made are part of the boundary [GL 2.1, 2.12]; those along the guard band are out
-  // of sight.
+  // Edges created by clipping belong to the boundary [GL 2.1, 2.12]; those along the guard band are never
+  // visible.
   void draw_outline(const std::vector<ClipVertex>& polygon, double offset,
                     const FragmentCallback& take) const {
     for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -147,12 +147,13 @@ class MeshDrawing {
         rasterize_point(window_vertex(vertex, window_), draw_.point_size, offset, window_, take);
   }
 
-  // Points and lines are front and have no slope.
+  // Points and lines are front-facing and have no slope.
   static constexpr bool kIsBack = false;
   static constexpr double kNoOffset = 0;
 
   const Draw& draw_;
-  std::int32_t command_, number_ = 0;
+  std::int32_t command_;
+  std::int32_t number_ = 0;
   SampleBuffers& buffers_;
   ClipVolume volume_;
   std::optional<TextureSampler> texture_;

@@ -1,4 +1,4 @@
-// Drawing a mesh: each of its primitives is clipped, rasterized, shaded and stored, one after the other.
+// Draws a mesh: clips, rasterizes, shades and stores its primitives in order.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tessera::reference {
 
-/// What is in force at a draw.
+/// Frame state at a draw.
 struct FrameState {
   const Scene& scene;
   const Camera& camera;

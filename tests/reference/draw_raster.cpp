@@ -12,7 +12,7 @@ namespace {
 
 constexpr bool kIsBack = false;
 
-/// What lies between two corners, the left and lower border included, the right and upper not.
+/// A rectangle in the window; the left and lower borders are inclusive, the right and upper ones exclusive.
 struct Region {
   double left, right, bottom, top;
 
@@ -23,7 +23,7 @@ Region between(double x0, double x1, double y0, double y1) {
   return {std::min(x0, x1), std::max(x0, x1), std::min(y0, y1), std::max(y0, y1)};
 }
 
-/// Gives the pipeline a fragment of each visible pixel with a sample in the region.
+/// Passes a fragment to the pipeline for each visible pixel with a sample in the region.
 void fill(const Region& region, double depth, const FragmentState& state, SampleBuffers& buffers,
           FragmentPipeline& pipeline) {
   const Rect visible = intersection(buffers.rect(), state.scissor.value_or(buffers.rect()));
@@ -37,8 +37,8 @@ void fill(const Region& region, double depth, const FragmentState& state, Sample
   };
   Fragment fragment;
   fragment.depth.fill(depth);
-  const int end_x = pixel(region.right + 1, visible.x, visible.width),
-            end_y = pixel(region.top + 1, visible.y, visible.height);
+  const int end_x = pixel(region.right + 1, visible.x, visible.width);
+  const int end_y = pixel(region.top + 1, visible.y, visible.height);
   for (int y = pixel(region.bottom, visible.y, visible.height); y < end_y; ++y)
     for (int x = pixel(region.left, visible.x, visible.width); x < end_x; ++x) {
       fragment.x = x;
@@ -61,7 +61,8 @@ void draw_bitmap(const Bitmap& bitmap, std::int32_t command, SampleBuffers& buff
         return Shade{color, {}};
       },
       {command, 0, kIsBack}, buffers);
-  const double left = std::floor(bitmap.at[0]), bottom = std::floor(bitmap.at[1]);
+  const double left = std::floor(bitmap.at[0]);
+  const double bottom = std::floor(bitmap.at[1]);
   std::size_t bit = 0;
   for (int y = 0; y < bitmap.height; ++y)
     for (int x = 0; x < bitmap.width; ++x)

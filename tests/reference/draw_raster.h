@@ -1,4 +1,4 @@
-// Drawing bitmaps [GL 2.1, 3.7] and images [3.6.4, with several samples 3.6.6] at a window position.
+// Draws bitmaps [GL 2.1, 3.7] and images [3.6.4, with several samples 3.6.6] at a window position.
 #pragma once
 
 #include <cstdint>

@@ -52,12 +52,21 @@ Vec4 factor(BlendFactor name, Vec4 source, Vec4 destination, Vec4 constant) {
 
 Vec4 with_alpha(Vec4 color, double alpha) { return {color.x, color.y, color.z, alpha}; }
 
-// M_1 = [0], M_2n = [[4 M_n, 4 M_n + 2], [4 M_n + 3, 4 M_n + 1]]
+// M_1 = [0], M_2n = [[4 M_n, 4 M_n + 2], [4 M_n + 3, 4 M_n + 1]].
 int bayer(int n, int row, int column) {
   if (n == 1) return 0;
   constexpr int kQuadrant[2][2] = {{0, 2}, {3, 1}};
   const int half = n / 2;
   return 4 * bayer(half, row % half, column % half) + kQuadrant[row / half][column / half];
+}
+
+int bayer_size(Dither dither) {
+  switch (dither) {
+    case Dither::kBayer2: return 2;
+    case Dither::kBayer4: return 4;
+    case Dither::kBayer8: return 8;
+    default: return 1;
+  }
 }
 
 }  // namespace
@@ -113,10 +122,7 @@ std::uint32_t combined(LogicOp op, std::uint32_t s, std::uint32_t d) {
 }
 
 double dither_threshold(Dither dither, int x, int y) {
-  const int n = dither == Dither::kBayer2   ? 2
-                : dither == Dither::kBayer4 ? 4
-                : dither == Dither::kBayer8 ? 8
-                                            : 1;
+  const int n = bayer_size(dither);
   return (bayer(n, y % n, x % n) + 0.5) / (n * n);
 }
 

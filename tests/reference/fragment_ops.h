@@ -1,4 +1,4 @@
-// The per-fragment operations one by one: pure functions of what comes in and what is stored.
+// The per-fragment operations: pure functions of incoming and stored values.
 #pragma once
 
 #include "fragment_state.h"
@@ -20,10 +20,10 @@ bool passes(Compare test, T incoming, T stored) {
   return false;
 }
 
-/// @param stored  of a buffer of `bits` bits.
+/// @param stored  value in a buffer of `bits` bits
 bool passes_stencil(const StencilFace& face, std::uint32_t stored, int bits);
 
-/// The stencil value that is left when `op` has been applied through the write mask.
+/// Returns the stencil value after `op` through the write mask.
 std::uint32_t stencil_after(StencilOp op, const StencilFace& face, std::uint32_t stored, int bits);
 
 /// @param source  0..1
@@ -31,10 +31,10 @@ std::uint32_t stencil_after(StencilOp op, const StencilFace& face, std::uint32_t
 /// @return not clamped
 Vec4 blended(const Blend& blend, Vec4 source, Vec4 destination);
 
-/// All 32 bits; bits beyond the buffer's have no meaning.
+/// Combines all 32 bits; bits beyond the buffer's are meaningless.
 std::uint32_t combined(LogicOp op, std::uint32_t source, std::uint32_t destination);
 
-/// The threshold t of ordered dither, between 0 and 1; 0.5, which is rounding, without dither.
+/// Threshold of ordered dither, between 0 and 1; 0.5 without dither, which rounds.
 /// @param x, y  window coordinates of the pixel, y up.
 double dither_threshold(Dither dither, int x, int y);
 

@@ -15,7 +15,7 @@ FragmentPipeline::FragmentPipeline(const FragmentState& state, Shader shader, So
       planes_(buffers.colors().writable_planes(state.color_mask, state.plane_mask)) {}
 
 void FragmentPipeline::take(const Fragment& fragment) {
-  std::optional<Shade> shade;  // once a pixel, if anything asks for it
+  std::optional<Shade> shade;  // evaluated at most once per pixel
   const auto shaded = [&]() -> const Shade& {
     if (!shade) shade = shader_(fragment);
     return *shade;
@@ -65,11 +65,9 @@ bool FragmentPipeline::passes_depth(SampleBuffers::Sample& stored, double depth)
 
 std::uint32_t FragmentPipeline::new_word(const Shade& shade, std::uint32_t stored, double dither) const {
   const ColorFormat& colors = buffers_.colors();
-  const std::uint32_t word =
-      shade.index    ? colors.index_word(*shade.index)
-      : state_.blend ? colors.word(blended(*state_.blend, shade.color, colors.color(stored)), dither)
-                     : colors.word(shade.color, dither);
-  return combined(state_.logic_op, word, stored);
+  if (shade.index) return combined(state_.logic_op, colors.index_word(*shade.index), stored);
+  const Vec4 color = state_.blend ? blended(*state_.blend, shade.color, colors.color(stored)) : shade.color;
+  return combined(state_.logic_op, colors.word(color, dither), stored);
 }
 
 }  // namespace tessera::reference

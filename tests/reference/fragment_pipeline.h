@@ -1,5 +1,5 @@
-// The way of a fragment into the buffers: alpha test, stencil, depth, blend, dither, logic operation, masks,
-// in this order. The scissor is done before, by what is rasterized.
+// Stages of a fragment in order: alpha test, stencil, depth, blend, dither, logic operation, masks. The
+// scissor was applied during rasterization.
 #pragma once
 
 #include <functional>
@@ -10,17 +10,17 @@
 
 namespace tessera::reference {
 
-/// Takes the fragments of one primitive.
+/// Processes the fragments of one primitive.
 class FragmentPipeline {
  public:
-  /// What stays the same over the primitive.
+  /// State that is constant over the primitive.
   struct Source {
     std::int32_t command = 0;    ///< index in Scene::frame
-    std::int32_t primitive = 0;  ///< index in the mesh; 0 for what is none
+    std::int32_t primitive = 0;  ///< index in the mesh; 0 for bitmaps and images
     bool is_back = false;
   };
 
-  /// Says the colour of a fragment; asked at most once for each.
+  /// Returns the colour of a fragment; called at most once per fragment.
   using Shader = std::function<Shade(const Fragment&)>;
 
   /// `state` and `buffers` must outlive this.
@@ -37,7 +37,7 @@ class FragmentPipeline {
   Shader shader_;
   Source source_;
   SampleBuffers& buffers_;
-  std::uint32_t planes_;  // that may change
+  std::uint32_t planes_;  // writable planes
 };
 
 }  // namespace tessera::reference

@@ -1,5 +1,4 @@
-// What a draw does to its fragments after they are shaded, in the order in which it happens; see the
-// specification, section 2.
+// Per-fragment state of a draw, in the order of the operations; see the specification, section 2.
 #pragma once
 
 #include <array>
@@ -31,7 +30,7 @@ struct StencilFace {
 
 struct StencilState {
   StencilFace front;
-  StencilFace back;  ///< the same as `front` unless the scene says otherwise
+  StencilFace back;  ///< defaults to `front`
 };
 
 struct DepthState {
@@ -68,10 +67,10 @@ enum class BlendEquation { kAdd, kSubtract, kReverseSubtract, kMin, kMax };
 struct Blend {
   BlendFactor src = BlendFactor::kSrcAlpha;
   BlendFactor dst = BlendFactor::kOneMinusSrcAlpha;
-  BlendFactor src_alpha = BlendFactor::kSrcAlpha;  ///< the same as `src` unless the scene says otherwise
+  BlendFactor src_alpha = BlendFactor::kSrcAlpha;  ///< defaults to `src`
   BlendFactor dst_alpha = BlendFactor::kOneMinusSrcAlpha;
-  BlendEquation equation = BlendEquation::kAdd;  ///< of colour and alpha
-  Vec4 color{0, 0, 0, 0};                        ///< the constant, 0..1
+  BlendEquation equation = BlendEquation::kAdd;  ///< for colour and alpha
+  Vec4 color{0, 0, 0, 0};                        ///< blend constant, 0..1
 };
 
 enum class Dither { kNone, kBayer2, kBayer4, kBayer8 };

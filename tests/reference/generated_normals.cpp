@@ -17,7 +17,7 @@ Primitive any_primitive(const Mesh& mesh, std::size_t index) {
   return primitive(mesh, index, ProvokingVertex::kLast);
 }
 
-// Twice the area long.
+// Normal with a length of twice the area.
 Vec3 area_normal(const Mesh& mesh, const Primitive& polygon) {
   const auto corner = [&](std::size_t i) {
     const Vec4 p = mesh.positions[polygon.vertices[i]];
@@ -40,7 +40,7 @@ std::vector<Vec3> mean_face_normals(const Mesh& mesh) {
   for (std::size_t i = 0; i < primitive_count(mesh); ++i) {
     const Primitive polygon = any_primitive(mesh, i);
     const Vec3 normal = area_normal(mesh, polygon);
-    std::set<Key> positions;  // of which several corners may share one
+    std::set<Key> positions;  // several corners may share a position
     for (const std::uint32_t vertex : polygon.vertices) positions.insert(key_of(mesh.positions[vertex]));
     for (const Key& position : positions) sums[position] = sums[position] + normal;
   }

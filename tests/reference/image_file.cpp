@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMaxSide = 16384;
 
-/// A header of numbers, with comments, and one byte of white space; then the rows from the top.
+/// Format: a header of numbers and comments, one byte of white space, then the rows from the top.
 class PortableMap {
  public:
   explicit PortableMap(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}

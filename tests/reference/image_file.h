@@ -1,4 +1,4 @@
-// Reading images: binary portable pixmaps and graymaps, and PNG.
+// Reads binary portable pixmaps and graymaps, and PNG.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace tessera::reference {
 
-/// By what the file holds, not by its name.
+/// Detects the format by content, not by file name.
 /// @throws std::runtime_error for a file that is missing, broken or of another kind, in words that follow
 /// "found".
 Image read_image(const std::string& path);
 
-/// One channel of a pixel in 8 bits: the nearest level, without transfer curve.
+/// One channel of a pixel in 8 bits: the nearest level, without a transfer curve.
 std::uint8_t level_in_8_bits(unsigned value, unsigned largest);
 
-/// @param bytes  of the whole file
+/// @param bytes  the whole file
 Image read_png(const std::vector<std::uint8_t>& bytes);
 
 }  // namespace tessera::reference

@@ -18,7 +18,7 @@ class Bits {
     return value;
   }
 
-  /// The first bit is the lowest.
+  /// Reads a number, least significant bit first.
   unsigned number(int bits) {
     unsigned value = 0;
     for (int i = 0; i < bits; ++i) value |= bit() << i;
@@ -32,7 +32,7 @@ class Bits {
   std::size_t at_ = 0;
 };
 
-/// A canonical Huffman code: codes of one length follow each other in the order of their symbols.
+/// A canonical Huffman code: codes of equal length are assigned in symbol order.
 class Huffman {
  public:
   explicit Huffman(std::span<const int> lengths) {
@@ -42,7 +42,8 @@ class Huffman {
   }
 
   unsigned symbol(Bits& bits) const {
-    unsigned code = 0, first = 0;
+    unsigned code = 0;
+    unsigned first = 0;
     for (std::size_t length = 1; length < symbols_.size(); ++length) {
       code = 2 * code + bits.bit();
       first *= 2;
@@ -54,7 +55,7 @@ class Huffman {
   }
 
  private:
-  std::array<std::vector<unsigned>, 16> symbols_;  // by the length of their codes
+  std::array<std::vector<unsigned>, 16> symbols_;  // by code length
 };
 
 constexpr unsigned kEnd = 256;
@@ -70,13 +71,15 @@ constexpr std::array<unsigned, 30> kDistances{1,    2,    3,    4,    5,    7,  
 int distance_bits(std::size_t symbol) { return symbol < 4 ? 0 : static_cast<int>(symbol / 2 - 1); }
 
 struct Codes {
-  Huffman literals, distances;
+  Huffman literals;
+  Huffman distances;
 };
 
 Codes fixed_codes() {
   std::array<int, 288> literals;
-  for (int symbol = 0; symbol < 288; ++symbol)
-    literals[static_cast<std::size_t>(symbol)] = symbol < 144 ? 8 : symbol < 256 ? 9 : symbol < 280 ? 7 : 8;
+  literals.fill(8);
+  std::fill(literals.begin() + 144, literals.begin() + 256, 9);
+  std::fill(literals.begin() + 256, literals.begin() + 280, 7);
   std::array<int, 30> distances;
   distances.fill(5);
   return {Huffman(literals), Huffman(distances)};
@@ -85,8 +88,9 @@ Codes fixed_codes() {
 Codes read_codes(Bits& bits) {
   constexpr std::array<std::size_t, 19> kOrder{16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                                11, 4,  12, 3, 13, 2, 14, 1, 15};
-  const std::size_t literals = bits.number(5) + 257, distances = bits.number(5) + 1,
-                    code_lengths = bits.number(4) + 4;
+  const std::size_t literals = bits.number(5) + 257;
+  const std::size_t distances = bits.number(5) + 1;
+  const std::size_t code_lengths = bits.number(4) + 4;
   std::array<int, 19> length_lengths{};
   for (std::size_t i = 0; i < code_lengths; ++i) length_lengths[kOrder[i]] = static_cast<int>(bits.number(3));
   const Huffman length_code(length_lengths);

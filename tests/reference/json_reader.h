@@ -1,5 +1,5 @@
-// Strict reading of JSON: every key must be known, every value of its type and size; what is wrong is named
-// by its pointer.
+// Strict JSON reading: every key must be known, every value of its type and size. Errors name the value by
+// its JSON pointer.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
   throw std::runtime_error("scene" + pointer + ": expected " + expected + ", found " + found);
 }
 
-/// A value and where it stands.
+/// A value and its JSON pointer.
 struct Value {
   const Json* json = nullptr;
   std::string pointer;
@@ -112,7 +112,7 @@ Enum choice(const Value& v, const std::vector<std::pair<const char*, Enum>>& nam
   fail(v.pointer, all);
 }
 
-/// The members of an object. Call finish() when all known keys have been asked for.
+/// Reads the members of an object. Call finish() after all known keys were read; it rejects unknown ones.
 class ObjectReader {
  public:
   explicit ObjectReader(const Value& v) : value_(v) {
@@ -133,7 +133,7 @@ class ObjectReader {
     return v;
   }
 
-  /// A key of the format that these renderers do not cover: it may only hold its default.
+  /// Reads a key that the reference renderers do not support: only its default value is accepted.
   void only_default(const std::string& key, const Json& standard) {
     if (const Value v = find(key); v && *v.json != standard)
       fail(v.pointer, standard.dump() + " (all that the reference covers)");

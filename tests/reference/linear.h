@@ -37,7 +37,7 @@ inline Vec4 operator-(Vec4 a, Vec4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z,
 inline Vec4 operator*(double s, Vec4 a) { return {s * a.x, s * a.y, s * a.z, s * a.w}; }
 inline Vec3 xyz(Vec4 a) { return {a.x, a.y, a.z}; }
 
-/// rows[r][c] is the number in row r and column c as written on paper: a translation stands in rows[0..2][3].
+/// rows[r][c] is the element in row r and column c as on paper: a translation is in rows[0..2][3].
 struct Mat4 {
   std::array<std::array<double, 4>, 4> rows{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 };

@@ -14,8 +14,9 @@ struct Frustum {
 };
 
 Mat4 look_at(Vec3 eye, Vec3 target, Vec3 up, const std::string& pointer) {
-  const Vec3 forward = normalize(target - eye), side = normalize(cross(forward, up)),
-             upward = cross(side, forward);
+  const Vec3 forward = normalize(target - eye);
+  const Vec3 side = normalize(cross(forward, up));
+  const Vec3 upward = cross(side, forward);
   if (length(side) == 0) fail(pointer, "an eye away from the target and an up that is not along the view");
   return {{{{side.x, side.y, side.z, -dot(side, eye)},
             {upward.x, upward.y, upward.z, -dot(upward, eye)},
@@ -25,7 +26,8 @@ Mat4 look_at(Vec3 eye, Vec3 target, Vec3 up, const std::string& pointer) {
 
 // Normal: z = -n goes to -w and z = -f to w. Reversed: z = -n goes to w and z = -f to 0.
 Mat4 perspective_matrix(const Frustum& f, bool reversed) {
-  const double n = f.near, depth = f.far - f.near;
+  const double n = f.near;
+  const double depth = f.far - f.near;
   double scale, offset;  // clip z = scale * z + offset
   if (reversed) {
     scale = f.far == kInfinity ? 0 : n / depth;
@@ -34,7 +36,8 @@ Mat4 perspective_matrix(const Frustum& f, bool reversed) {
     scale = f.far == kInfinity ? -1 : -(f.far + n) / depth;
     offset = f.far == kInfinity ? -2 * n : -2 * f.far * n / depth;
   }
-  const double w = f.right - f.left, h = f.top - f.bottom;
+  const double w = f.right - f.left;
+  const double h = f.top - f.bottom;
   return {{{{2 * n / w, 0, (f.right + f.left) / w, 0},
             {0, 2 * n / h, (f.top + f.bottom) / h, 0},
             {0, 0, scale, offset},
@@ -42,7 +45,9 @@ Mat4 perspective_matrix(const Frustum& f, bool reversed) {
 }
 
 Mat4 orthographic_matrix(const Frustum& f, bool reversed) {
-  const double w = f.right - f.left, h = f.top - f.bottom, depth = f.far - f.near;
+  const double w = f.right - f.left;
+  const double h = f.top - f.bottom;
+  const double depth = f.far - f.near;
   return {{{{2 / w, 0, 0, -(f.right + f.left) / w},
             {0, 2 / h, 0, -(f.top + f.bottom) / h},
             {0, 0, (reversed ? 1 : -2) / depth, (reversed ? f.far : -(f.far + f.near)) / depth},
@@ -63,7 +68,8 @@ void parse_projection(const Value& v, double aspect, Camera& camera) {
                                                             {"orthographic", Type::kOrthographic},
                                                             {"frustum", Type::kFrustum}});
   Frustum f{};
-  const Value near_value = reader.find("near"), reversed = reader.find("reversed");
+  const Value near_value = reader.find("near");
+  const Value reversed = reader.find("reversed");
   f.near = near_value ? number(near_value) : 0.1;
   f.far = far_plane(reader.find("far"));
   camera.reversed = reversed && boolean(reversed);
@@ -106,7 +112,9 @@ Camera parse_camera(const Value& v, double aspect) {
     const Value reversed = reader.find("reversed");
     camera.reversed = reversed && boolean(reversed);
   } else {
-    const Value eye = reader.find("eye"), target = reader.find("target"), up = reader.find("up");
+    const Value eye = reader.find("eye");
+    const Value target = reader.find("target");
+    const Value up = reader.find("up");
     camera.view_from_world = look_at(eye ? vec3(eye) : Vec3{0, 0, 4}, target ? vec3(target) : Vec3{},
                                      up ? vec3(up) : Vec3{0, 1, 0}, v.pointer);
     const Json standard = Json::object();

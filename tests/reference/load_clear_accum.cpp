@@ -1,4 +1,4 @@
-// The commands that work on rectangles of whole buffers: clear and accum.
+// The commands clear and accum, which work on rectangles of whole buffers.
 #include <limits>
 
 #include "scene_parts.h"

@@ -10,10 +10,13 @@ namespace {
 Mat4 translation(Vec3 t) { return {{{{1, 0, 0, t.x}, {0, 1, 0, t.y}, {0, 0, 1, t.z}, {0, 0, 0, 1}}}}; }
 Mat4 scaling(Vec3 s) { return {{{{s.x, 0, 0, 0}, {0, s.y, 0, 0}, {0, 0, s.z, 0}, {0, 0, 0, 1}}}}; }
 
-// As glRotate.
+// Same as glRotate.
 Mat4 rotation(double degrees, Vec3 axis) {
   const Vec3 a = normalize(axis);
-  const double angle = degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle), k = 1 - c;
+  const double angle = degrees * std::numbers::pi / 180;
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  const double k = 1 - c;
   return {{{{a.x * a.x * k + c, a.x * a.y * k - a.z * s, a.x * a.z * k + a.y * s, 0},
             {a.y * a.x * k + a.z * s, a.y * a.y * k + c, a.y * a.z * k - a.x * s, 0},
             {a.z * a.x * k - a.y * s, a.z * a.y * k + a.x * s, a.z * a.z * k + c, 0},
@@ -44,7 +47,7 @@ Material find_material(const Value& v, const Scene& scene) {
   return found->second;
 }
 
-// Keys of the format whose features the reference renderers do not have.
+// Keys of the format whose features the reference renderers do not support.
 void refuse_other_features(ObjectReader& reader) { reader.only_default("stages", Json::array()); }
 
 void parse_texturing(ObjectReader& reader, const Scene& scene, Draw& draw) {

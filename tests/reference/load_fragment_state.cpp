@@ -1,4 +1,4 @@
-// The per-fragment keys of draws, bitmaps and images, and the buffers that each of them needs.
+// The per-fragment keys of draws, bitmaps and images, and the buffers they require.
 #include <limits>
 
 #include "scene_parts.h"

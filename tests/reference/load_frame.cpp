@@ -10,8 +10,12 @@ Command parse_command(const Value& v, const Scene& scene, const std::string& dir
   if (v.json->is_object() && v.json->contains("draw")) return parse_draw(v, scene, lights_in_force);
   ObjectReader reader(v);
   if (v.json->size() != 1) fail(v.pointer, "one command");
-  const Value clear = reader.find("clear"), camera = reader.find("camera"), lights = reader.find("lights"),
-              accum = reader.find("accum"), bitmap = reader.find("bitmap"), image = reader.find("image");
+  const Value clear = reader.find("clear");
+  const Value camera = reader.find("camera");
+  const Value lights = reader.find("lights");
+  const Value accum = reader.find("accum");
+  const Value bitmap = reader.find("bitmap");
+  const Value image = reader.find("image");
   reader.finish();
   if (clear) return parse_clear(clear, scene);
   if (bitmap) return parse_bitmap(bitmap, scene.framebuffer);

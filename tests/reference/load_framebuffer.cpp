@@ -1,4 +1,4 @@
-// The frame buffer of a scene, and what its kind cannot have.
+// The frame buffer of a scene, and the features that its kind excludes.
 #include "palette.h"
 #include "scene_parts.h"
 
@@ -38,7 +38,7 @@ Dither parse_dither(const Value& v) {
                             {"bayer8", Dither::kBayer8}});
 }
 
-/// An integer out of a list; what an index buffer cannot have may only be the first.
+/// An integer from a list. Index buffers only allow the first value.
 int parse_size(const Value& v, const std::vector<int>& sizes, const FrameBufferFormat& format,
                const std::string& what) {
   std::string all;

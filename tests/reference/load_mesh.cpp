@@ -1,6 +1,5 @@
-// Meshes: built in, written in the scene, or from an OBJ file. The header-only OBJ loader is compiled here,
-// with doubles and under a name of its own, so that it cannot meet another copy of itself in the same
-// program.
+// Meshes: built in, listed in the scene, or from an OBJ file. The header-only OBJ loader is compiled here
+// with doubles and under its own namespace, so that it cannot clash with another copy in the same program.
 #define tinyobj tessera_reference_tinyobj
 #define TINYOBJLOADER_USE_DOUBLE
 #define TINYOBJLOADER_IMPLEMENTATION
@@ -61,22 +60,25 @@ Mesh parse_inline(ObjectReader& reader) {
   return mesh;
 }
 
-// Every corner becomes a vertex of its own; polygons fan from their first corner. Normals, colours and
-// texture coordinates count only if the file has them at every corner. The file's own materials play no part:
-// a draw names its material.
+// Every corner becomes a separate vertex; polygons are split into fans around their first corner. Normals,
+// colours and texture coordinates are used only if every corner of the file has them. The file's materials
+// are ignored: a draw names its material.
 Mesh load_obj(const std::string& path) {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
-  std::string warning, error;
+  std::string warning;
+  std::string error;
   const std::string directory = path.substr(0, path.find_last_of('/') + 1);
-  constexpr bool kTriangulate = false, kWhiteIfUncolored = false;
+  constexpr bool kTriangulate = false;
+  constexpr bool kWhiteIfUncolored = false;
   if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, path.c_str(), directory.c_str(),
                         kTriangulate, kWhiteIfUncolored))
     throw std::runtime_error("cannot read " + path + ": " + error);
 
   Mesh mesh;
-  bool has_normals = true, has_texcoords = true;
+  bool has_normals = true;
+  bool has_texcoords = true;
   const bool has_colors = attributes.colors.size() == attributes.vertices.size();
   const auto triple = [](const std::vector<tinyobj::real_t>& list, int index) {
     const auto at = 3 * static_cast<std::size_t>(index);

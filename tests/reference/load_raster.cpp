@@ -1,4 +1,4 @@
-// The commands that draw pixels at a window position: bitmap and image.
+// The commands bitmap and image, which draw pixels at a window position.
 #include "scene_parts.h"
 
 namespace tessera::reference {
@@ -11,7 +11,7 @@ std::array<double, 2> parse_position(const Value& v) {
   return {number(v[0], -kFarthest, kFarthest), number(v[1], -kFarthest, kFarthest)};
 }
 
-// A number is where it lies; anything else a depth test, which parse_fragment_state() reads.
+// A number is the raster depth; anything else is a depth test, read by parse_fragment_state().
 void parse_raster_depth(ObjectReader& reader, double& depth) {
   if (const Value v = reader.find("depth"); v && v.json->is_number()) depth = number(v, 0, 1);
 }
@@ -23,10 +23,11 @@ unsigned hexadecimal_digit(char c, const Value& v) {
   fail(v.pointer, "hexadecimal digits", v.json->dump());
 }
 
-/// Rows from the top, whole bytes, the most significant bit left.
+/// Rows from the top, whole bytes, most significant bit left.
 std::vector<bool> parse_rows(const Value& v, int width, int height) {
-  const auto columns = static_cast<std::size_t>(width), count = static_cast<std::size_t>(height),
-             digits = (columns + 7) / 8 * 2;
+  const auto columns = static_cast<std::size_t>(width);
+  const auto count = static_cast<std::size_t>(height);
+  const auto digits = (columns + 7) / 8 * 2;
   if (array_size(v) != count) fail(v.pointer, std::to_string(count) + " rows", std::to_string(array_size(v)));
   std::vector<bool> bits;
   for (std::size_t row = count; row-- > 0;) {

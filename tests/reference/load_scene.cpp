@@ -1,4 +1,4 @@
-// The top level of a scene file: light model, lights, materials; the other parts have files of their own.
+// Top level of a scene file: light model, lights, materials. The other parts have their own files.
 #include <fstream>
 #include <sstream>
 
@@ -8,18 +8,20 @@
 namespace tessera::reference {
 namespace {
 
-// {"keys": [[t, value], ...]} stands for any number; a still has t = 0.
+// {"keys": [[t, value], ...]} may replace any number; a still picture uses t = 0.
 void resolve_keys(Json& json) {
-  if (json.is_object() && json.size() == 1 && json.contains("keys") && json["keys"].is_array() &&
-      !json["keys"].empty()) {
+  const bool has_only_keys = json.is_object() && json.size() == 1 && json.contains("keys");
+  if (has_only_keys && json["keys"].is_array() && !json["keys"].empty()) {
     const Json keys = json["keys"];
     std::size_t after = 0;
     while (after < keys.size() && keys[after].at(0).get<double>() < 0) ++after;
     if (after == 0 || after == keys.size()) {
       json = keys[after == 0 ? 0 : after - 1].at(1);
     } else {
-      const double t0 = keys[after - 1].at(0), t1 = keys[after].at(0), v0 = keys[after - 1].at(1),
-                   v1 = keys[after].at(1);
+      const double t0 = keys[after - 1].at(0);
+      const double t1 = keys[after].at(0);
+      const double v0 = keys[after - 1].at(1);
+      const double v1 = keys[after].at(1);
       json = v0 + (v1 - v0) * (0 - t0) / (t1 - t0);
     }
     return;

@@ -8,7 +8,7 @@
 namespace tessera::reference {
 namespace {
 
-// The 16 colours of the IBM CGA and EGA.
+// The 16 colours of IBM CGA and EGA.
 constexpr std::array<Rgb8, 16> kEga16{{{0, 0, 0},
                                        {0, 0, 170},
                                        {0, 170, 0},
@@ -44,7 +44,8 @@ std::uint8_t dac_to_8_bits(int level) { return static_cast<std::uint8_t>(std::lr
 // One row of 24 hues: blue, +red, magenta, -blue, red, +green, yellow, -red, green, +blue, cyan, -green.
 void append_hues(std::vector<Rgb8>& palette, const std::array<int, 5>& ramp) {
   struct Step {
-    int component, sign;
+    int component;
+    int sign;
   };
   constexpr std::array<Step, 6> kSteps{{{0, +1}, {2, -1}, {1, +1}, {0, -1}, {2, +1}, {1, -1}}};
   std::array<int, 3> position{0, 0, 4};  // in the ramp, for R, G, B
@@ -101,7 +102,9 @@ std::vector<Rgb8> named_palette(const std::string& name, int bits) {
 }
 
 std::vector<Rgb8> default_palette(int bits) {
-  return named_palette(bits == 1 ? "bw" : bits <= 3 ? "gray" : bits <= 7 ? "ega16" : "vga256", bits);
+  if (bits == 1) return named_palette("bw", bits);
+  if (bits <= 3) return named_palette("gray", bits);
+  return named_palette(bits <= 7 ? "ega16" : "vga256", bits);
 }
 
 NearestEntry::NearestEntry(const std::vector<Rgb8>& palette) {

@@ -1,4 +1,4 @@
-// The fixed palettes of index buffers and the search for the nearest entry.
+// Fixed palettes of colour-index buffers, and the search for the nearest entry.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 namespace tessera::reference {
 
 /// @param name  bw | gray | ega16 | vga256 | web216
-/// @param bits  of the index buffer; `gray` has 2^bits entries
+/// @param bits  index bits of the buffer; `gray` has 2^bits entries
 /// @throws std::runtime_error for another name or a palette of more than 2^bits entries.
 std::vector<Rgb8> named_palette(const std::string& name, int bits);
 
 /// bw at 1 bit, greys at 2 and 3, ega16 at 4 to 7, vga256 at 8 and more.
 std::vector<Rgb8> default_palette(int bits);
 
-/// Finds nearest entries: least squared distance of the stored values / 255, ties to the lowest index. Only
-/// entries that are set take part.
+/// Finds the nearest entry: least squared distance of the stored values / 255, ties to the lowest index.
+/// Unset entries are ignored.
 class NearestEntry {
  public:
   explicit NearestEntry(const std::vector<Rgb8>& palette);

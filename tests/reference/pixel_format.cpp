@@ -24,8 +24,8 @@ bool is_luminance(const FrameBufferFormat& format) {
 
 std::uint32_t low_bits(int bits) { return (std::uint32_t{1} << bits) - 1; }
 
-// A palette of N colours counts as a cube of cbrt(N) levels a side: the shift is at most half of what lies
-// between two of them.
+// A palette of N colours counts as a cube with cbrt(N) levels per side: the shift is at most half the
+// distance between two levels.
 Vec3 dithered_for_palette(Vec3 color, double threshold, std::size_t colors) {
   const double shift = (threshold - 0.5) / std::max(1.0, std::cbrt(static_cast<double>(colors)) - 1);
   return color + Vec3{shift, shift, shift};

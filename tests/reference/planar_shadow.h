@@ -7,9 +7,9 @@
 
 namespace tessera::reference {
 
-/// Maps world space onto the plane, with w above 0 for what lies between the light and the plane.
+/// Maps world space onto the plane; w is above 0 between the light and the plane.
 /// @param plane  a, b, c, d of a x + b y + c z + d = 0
-/// @return none if there is no such projection: a plane without normal, a light in it, a direction along it
+/// @return none for a plane without normal, a light in the plane, or a direction parallel to it
 std::optional<Mat4> shadow_matrix(Vec4 plane, const Light& light);
 
 }  // namespace tessera::reference

@@ -1,5 +1,6 @@
-// PNG files (W3C Portable Network Graphics, second edition) that are not interlaced. Gamma and colour
-// profiles are not looked at: no transfer curve lies between a file and a texel.
+// Non-interlaced PNG files (W3C Portable Network Graphics, second edition). Gamma and colour profiles are
+// ignored: texels have no transfer curve.
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <span>
@@ -20,8 +21,12 @@ unsigned big_endian(std::span<const std::uint8_t> bytes, std::size_t count) {
 }
 
 struct Header {
-  int width = 0, height = 0, bit_depth = 0;
-  bool has_palette = false, has_color = false, has_alpha = false;
+  int width = 0;
+  int height = 0;
+  int bit_depth = 0;
+  bool has_palette = false;
+  bool has_color = false;
+  bool has_alpha = false;
 
   int samples() const { return has_palette ? 1 : (has_color ? 3 : 1) + (has_alpha ? 1 : 0); }
   std::size_t row_bytes() const {
@@ -32,18 +37,23 @@ struct Header {
 
 struct Chunks {
   Header header;
-  Bytes palette, transparent, data;
+  Bytes palette;
+  Bytes transparent;
+  Bytes data;
 };
 
 Header read_header(std::span<const std::uint8_t> chunk) {
   constexpr unsigned kMaxSide = 16384;
   if (chunk.size() != 13) throw std::runtime_error("a PNG file without a header");
-  const unsigned width = big_endian(chunk, 4), height = big_endian(chunk.subspan(4), 4), type = chunk[9];
+  const unsigned width = big_endian(chunk, 4);
+  const unsigned height = big_endian(chunk.subspan(4), 4);
+  const unsigned type = chunk[9];
   if (width < 1 || width > kMaxSide || height < 1 || height > kMaxSide)
     throw std::runtime_error("a size that is not 1..16384");
   if (type > 6 || type == 1 || type == 5) throw std::runtime_error("a PNG file of an unknown type");
   const int depth = chunk[8];
-  if (depth != 1 && depth != 2 && depth != 4 && depth != 8 && depth != 16)
+  constexpr int kDepths[] = {1, 2, 4, 8, 16};
+  if (std::ranges::find(kDepths, depth) == std::end(kDepths))
     throw std::runtime_error("a PNG file of an unknown depth");
   if (chunk[12] != 0) throw std::runtime_error("an interlaced PNG file");
   return {static_cast<int>(width), static_cast<int>(height), depth,
@@ -51,7 +61,8 @@ Header read_header(std::span<const std::uint8_t> chunk) {
 }
 
 Chunks read_chunks(const Bytes& bytes) {
-  constexpr std::size_t kSignature = 8, kAround = 12;  // a chunk is its length, name, data and checksum
+  constexpr std::size_t kSignature = 8;
+  constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
   Chunks chunks;
   for (std::size_t at = kSignature;;) {
     if (at + kAround > bytes.size()) throw std::runtime_error("a file that ends early");
@@ -72,16 +83,19 @@ Chunks read_chunks(const Bytes& bytes) {
 }
 
 int paeth(int left, int up, int corner) {
-  const int p = left + up - corner, to_left = std::abs(p - left), to_up = std::abs(p - up),
-            to_corner = std::abs(p - corner);
+  const int p = left + up - corner;
+  const int to_left = std::abs(p - left);
+  const int to_up = std::abs(p - up);
+  const int to_corner = std::abs(p - corner);
   if (to_left <= to_up && to_left <= to_corner) return left;
   return to_up <= to_corner ? up : corner;
 }
 
-/// Undoes the filters: rows of bytes, one after the other.
+/// Undoes the row filters.
 Bytes unfiltered(const Bytes& filtered, const Header& header) {
-  const std::size_t row = header.row_bytes(), pixel = header.pixel_bytes(),
-                    height = static_cast<std::size_t>(header.height);
+  const std::size_t row = header.row_bytes();
+  const std::size_t pixel = header.pixel_bytes();
+  const std::size_t height = static_cast<std::size_t>(header.height);
   if (filtered.size() < height * (row + 1)) throw std::runtime_error("a PNG file with too little data");
   Bytes out(height * row);
   for (std::size_t y = 0; y < height; ++y)
@@ -89,7 +103,9 @@ Bytes unfiltered(const Bytes& filtered, const Header& header) {
       const auto before = [&](std::size_t back, std::size_t rows_up) {
         return i < back || y < rows_up ? 0 : int{out[(y - rows_up) * row + i - back]};
       };
-      const int left = before(pixel, 0), up = before(0, 1), corner = before(pixel, 1);
+      const int left = before(pixel, 0);
+      const int up = before(0, 1);
+      const int corner = before(pixel, 1);
       int predicted = 0;
       switch (filtered[y * (row + 1)]) {
         case 0: break;
@@ -104,11 +120,11 @@ Bytes unfiltered(const Bytes& filtered, const Header& header) {
   return out;
 }
 
-/// The samples of one pixel as they are in the file.
+/// Unconverted samples of one pixel.
 std::array<unsigned, 4> samples_at(const Bytes& rows, const Header& header, std::size_t x, std::size_t y) {
   std::array<unsigned, 4> samples{};
-  const auto depth = static_cast<std::size_t>(header.bit_depth),
-             count = static_cast<std::size_t>(header.samples());
+  const auto depth = static_cast<std::size_t>(header.bit_depth);
+  const auto count = static_cast<std::size_t>(header.samples());
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t bit = (x * count + i) * depth;
     const std::span<const std::uint8_t> at = std::span(rows).subspan(y * header.row_bytes() + bit / 8);
@@ -131,8 +147,8 @@ Image read_png(const Bytes& bytes) {
   const Chunks chunks = read_chunks(bytes);
   const Header& header = chunks.header;
   const auto count = static_cast<std::size_t>(header.samples());
-  const bool has_key =
-      !header.has_palette && chunks.transparent.size() >= 2 * count;  // one colour stands for no colour
+  // The image declares one transparent colour.
+  const bool has_key = !header.has_palette && chunks.transparent.size() >= 2 * count;
   const Bytes rows = unfiltered(inflate(chunks.data), header);
 
   Image image;

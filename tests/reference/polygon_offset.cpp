@@ -6,8 +6,9 @@
 namespace tessera::reference {
 
 double smallest_difference(DepthFormat format, double largest_depth) {
-  constexpr int kLeastExponent = -126,
-                kFractionBits = 23;  // of float; 0 and what is denormalized have the least
+  // Exponents of float; zero and denormals count as the smallest.
+  constexpr int kMinExponent = -126;
+  constexpr int kFractionBits = 23;
   switch (format) {
     case DepthFormat::kNone: return 0;
     case DepthFormat::kUnorm16: return 1 / (std::ldexp(1.0, 16) - 1);
@@ -15,8 +16,7 @@ double smallest_difference(DepthFormat format, double largest_depth) {
     case DepthFormat::kUnorm32: return 1 / (std::ldexp(1.0, 32) - 1);
     case DepthFormat::kFloat32: break;
   }
-  const int exponent =
-      largest_depth > 0 ? std::max(std::ilogb(largest_depth), kLeastExponent) : kLeastExponent;
+  const int exponent = largest_depth > 0 ? std::max(std::ilogb(largest_depth), kMinExponent) : kMinExponent;
   return std::ldexp(1.0, exponent - kFractionBits);
 }
 

@@ -1,4 +1,4 @@
-// What polygon offset adds to the depths of one polygon.
+// Polygon offset of one polygon.
 #pragma once
 
 #include <span>
@@ -8,11 +8,12 @@
 
 namespace tessera::reference {
 
-/// The smallest difference of depths: one level of a unorm format, whatever the depth; of float the step at
-/// the exponent of `largest_depth` (as Direct3D 11). 0 without a depth buffer.
+/// Smallest depth difference: one level of a unorm format; for float the step at the exponent of
+/// `largest_depth` (as in Direct3D 11). 0 without a depth buffer.
 double smallest_difference(DepthFormat format, double largest_depth);
 
-/// @param triangles  of one polygon. If it is not quite flat, the slope is that of the largest.
+/// @param triangles  of one polygon. For a non-planar polygon the slope is that of the triangle with the
+///     largest area.
 double depth_offset(const PolygonOffset& offset, std::span<const WindowPolygon> triangles,
                     DepthFormat format);
 

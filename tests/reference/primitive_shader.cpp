@@ -8,7 +8,7 @@
 namespace tessera::reference {
 namespace {
 
-/// The mixture of what `of` says of each corner.
+/// Weighted sum of `of(corner)` over the corners.
 template <class Of>
 auto mix(const CornerWeights& weights, const Of& of) {
   auto sum = weights[0] * of(0);
@@ -29,8 +29,8 @@ Vec4 higher(Vec4 a, Vec4 b) {
   return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z), std::max(a.w, b.w)};
 }
 
-/// The same, of a polygon within the range of its corners: a pixel's centre may lie outside where only
-/// samples are covered.
+/// Same, clamped to the range of the corners for polygons: a pixel's centre may lie outside if only samples
+/// are covered.
 template <class Of>
 auto mix_within(const CornerWeights& weights, const Of& of) {
   const auto mixed = mix(weights, of);
@@ -52,7 +52,7 @@ Material with_vertex_color(Material material, ColorMaterial mode, Vec4 color) {
   return material;
 }
 
-// Each side of a lit draw by its own material.
+// Each side of a lit draw depends on its own material.
 bool draws_indices(const DrawColors& colors, const Material& material) {
   if (colors.format.color_mode != ColorMode::kIndex) return false;
   return colors.draw.lighting ? material.color_indexes.has_value() : colors.mesh_has_indices;
@@ -118,7 +118,7 @@ Vec4 PrimitiveShader::color(const SurfacePoint& point) const {
                    colors_.lights);
 }
 
-// Masked right after lighting, or in its place.
+// Masked right after lighting, or for unlit draws right after reading the vertex index.
 double PrimitiveShader::index(const SurfacePoint& point) const {
   const Vec3 normal = lights_back_ ? -point.normal : point.normal;
   const double index = colors_.draw.lighting

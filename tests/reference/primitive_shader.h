@@ -1,4 +1,4 @@
-// The colours, or palette indices, of the points of one point, line or polygon.
+// Colours or palette indices at the points of one point, line or polygon.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace tessera::reference {
 
-/// What the colours of a draw depend on.
+/// Colour inputs of a draw.
 struct DrawColors {
   const Draw& draw;
   const LightModel& model;
@@ -24,17 +24,18 @@ struct DrawColors {
 
 class PrimitiveShader {
  public:
-  /// The arguments must outlive this.
+  /// The arguments must outlive the shader.
   PrimitiveShader(const Corners& corners, bool is_back, const DrawColors& colors);
 
-  /// The shares may lie outside 0..1 at a centre that is not covered: colours that are interpolated beyond
-  /// 0..1 are clamped.
+  /// The weights may lie outside 0..1 at an uncovered pixel centre; colours interpolated beyond 0..1 are
+  /// clamped.
   Shade shade(const Fragment& fragment) const;
 
  private:
-  /// A point of the primitive: a corner or a pixel of Phong shading.
+  /// A point of the primitive: a corner, or a pixel under Phong shading.
   struct SurfacePoint {
-    Vec3 position, normal;
+    Vec3 position;
+    Vec3 normal;
     Vec4 vertex_color;
     double vertex_index = 0;
   };
@@ -46,11 +47,11 @@ class PrimitiveShader {
   const Corners& corners_;
   const DrawColors& colors_;
   bool lights_back_;
-  Material material_;  // of the side that is seen
+  Material material_;  // material of the visible side
   bool has_index_;
-  // One for each corner, or if flat the provoking one's alone; lit Phong uses none.
+  // One per corner, or one for the provoking vertex under flat shading; unused for lit Phong shading.
   std::vector<Vec4> corner_colors_;
-  std::vector<double> corner_indices_;  // instead of colours
+  std::vector<double> corner_indices_;  // for index buffers
 };
 
 }  // namespace tessera::reference

@@ -1,12 +1,12 @@
-// The table of the specification's section 6. All numbers here count from 0, so that its vertex 2i - 1 is 2i.
+// The table in section 6 of the specification. Numbers count from 0 here, so its vertex 2i - 1 is 2i.
 #include "primitives.h"
 
 namespace tessera::reference {
 namespace {
 
 struct Pattern {
-  std::vector<std::size_t> places;  // in Mesh::indices
-  std::size_t last, first;          // the provoking one under each convention, a number in `places`
+  std::vector<std::size_t> places;  // positions in Mesh::indices
+  std::size_t last, first;          // provoking vertex under each convention, an index into `places`
 };
 
 Pattern pattern(PrimitiveType type, std::size_t i, std::size_t count) {
@@ -17,7 +17,8 @@ Pattern pattern(PrimitiveType type, std::size_t i, std::size_t count) {
     case PrimitiveType::kLineLoop:
       return {{i, (i + 1) % count}, 1, 0};  // the closing segment ends at the loop's first vertex
     case PrimitiveType::kTriangles: return {{3 * i, 3 * i + 1, 3 * i + 2}, 2, 0};
-    case PrimitiveType::kTriangleStrip:  // every other one turned over, so that all wind as the first does
+    // Every other triangle reversed, so that all have the winding of the first.
+    case PrimitiveType::kTriangleStrip:
       if (i % 2 == 0) return {{i, i + 1, i + 2}, 2, 0};
       return {{i + 1, i, i + 2}, 2, 1};
     case PrimitiveType::kTriangleFan: return {{0, i + 1, i + 2}, 2, 1};

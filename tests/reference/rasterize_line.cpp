@@ -21,14 +21,15 @@ class Line {
     const bool x_major = std::abs(along_.x) >= std::abs(along_.y);
     const std::int64_t down = (width - 1) * kSubpixels / 2;
     const Point shift = x_major ? Point{0, down} : Point{down, 0};
-    const Point a = a_.at - shift, b = b_.at - shift,
-                replicated = x_major ? Point{0, width - 1} : Point{width - 1, 0};
+    const Point a = a_.at - shift;
+    const Point b = b_.at - shift;
+    const Point replicated = x_major ? Point{0, width - 1} : Point{width - 1, 0};
     const Pixels all =
         visible_pixels({std::min(a.x, b.x) - kSubpixels, std::min(a.y, b.y) - kSubpixels},
                        {std::max(a.x, b.x) + kSubpixels, std::max(a.y, b.y) + kSubpixels}, window_);
-    // Column by column, or row by row. There the line stays within half a pixel of where it passes the
-    // middle, and so do the diamonds that it meets, with their centres another half away: two pixels up and
-    // down are more than enough.
+    // Scans column by column, or row by row. Within a column the line stays within half a pixel of where it
+    // passes the middle, and so do the diamonds it meets, whose centres are another half pixel away: two
+    // pixels up and down suffice.
     const std::int64_t first = x_major ? all.first_x : all.first_y, last = x_major ? all.last_x : all.last_y;
     for (std::int64_t major = first; major <= last; ++major) {
       const std::int64_t near = pixel_at(a, pixel_centre(major, major), x_major);
@@ -72,25 +73,29 @@ class Line {
       for (std::int64_t x = pixels.first_x; x <= pixels.last_x; ++x) take_fragment({x, y});
   }
 
-  // What is on the border belongs to the rectangle by the rule of polygons: its left side, and its upper side
-  // if that is level.
+  // Border points follow the polygon rule: the left side belongs to the rectangle, and the upper side if it
+  // is horizontal.
   bool is_in_rectangle(Point p, double width) const {
     const auto owns = [](Point way) { return way.y < 0 || (way.y == 0 && way.x < 0); };
     const auto dot = [](Point u, Point v) { return u.x * v.x + u.y * v.y; };
-    const Point d = along_, left{-d.y, d.x}, from_a = p - a_.at, to_b = b_.at - p;
+    const Point d = along_;
+    const Point left{-d.y, d.x};
+    const Point from_a = p - a_.at;
+    const Point to_b = b_.at - p;
     if (d.x == 0 && d.y == 0) return false;
-    const std::int64_t after_a = dot(d, from_a), before_b = dot(d, to_b);
+    const std::int64_t after_a = dot(d, from_a);
+    const std::int64_t before_b = dot(d, to_b);
     if (after_a < 0 || (after_a == 0 && !owns(Point{} - left))) return false;
     if (before_b < 0 || (before_b == 0 && !owns(left))) return false;
     const long double length = std::hypot(static_cast<long double>(d.x), static_cast<long double>(d.y));
-    const long double across = static_cast<long double>(dot(left, from_a)) / length,
-                      half = 0.5L * width * kSubpixels;
+    const long double across = static_cast<long double>(dot(left, from_a)) / length;
+    const long double half = 0.5L * width * kSubpixels;
     if (across == -half) return owns(d);
     if (across == half) return owns(Point{} - d);
     return -half < across && across < half;
   }
 
-  /// Equation 3.5
+  /// Equation 3.5.
   double t_at(Point p) const {
     const Point from_a = p - a_.at;
     const auto dx = static_cast<double>(along_.x), dy = static_cast<double>(along_.y);
@@ -105,14 +110,16 @@ class Line {
     for (std::size_t i = 0; i < offsets.size(); ++i)
       fragment_.depth[i] =
           std::clamp(a_.depth + t_at(centre + offsets[i]) * (b_.depth - a_.depth) + depth_offset_, 0.0, 1.0);
-    const double t = t_at(centre), wa = (1 - t) * a_.inverse_w, wb = t * b_.inverse_w;
+    const double t = t_at(centre);
+    const double wa = (1 - t) * a_.inverse_w;
+    const double wb = t * b_.inverse_w;
     for (std::size_t i = 0; i < fragment_.weights.size(); ++i)
       fragment_.weights[i] = wa / (wa + wb) * a_.weights[i] + wb / (wa + wb) * b_.weights[i];
     if (window_.derivatives) set_derivatives(wa + wb);
     take_(fragment_);
   }
 
-  // The quotient rule on equation 3.6; t grows by 1 along the length of the line.
+  // Quotient rule on equation 3.6; t grows by 1 along the length of the line.
   void set_derivatives(double sum) {
     const double length =
         std::hypot(static_cast<double>(along_.x), static_cast<double>(along_.y)) / kSubpixels;

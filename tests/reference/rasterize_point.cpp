@@ -6,8 +6,8 @@
 namespace tessera::reference {
 namespace {
 
-// The first of n pixels in a row around `at`: an odd number lies around the pixel that holds it, an even
-// number around the nearest border between pixels.
+// First of n pixels in a row around `at`: an odd number is centred on the pixel that contains it, an even
+// number on the nearest border between pixels.
 std::int64_t first_pixel(std::int64_t at, std::int64_t n) {
   const std::int64_t middle = n % 2 == 1 ? at : at + kSubpixels / 2;
   return (middle >> 8) - n / 2;
@@ -15,8 +15,8 @@ std::int64_t first_pixel(std::int64_t at, std::int64_t n) {
 static_assert(kSubpixels == 1 << 8);
 
 bool is_in_disc(Point p, double diameter) {
-  const auto x = static_cast<double>(p.x),
-             y = static_cast<double>(p.y);  // exact, so are the squares: near the disc
+  // Exact, and so are the squares, near the disc.
+  const auto x = static_cast<double>(p.x), y = static_cast<double>(p.y);
   const double radius = diameter * kSubpixels / 2;
   return x * x + y * y <= radius * radius;
 }

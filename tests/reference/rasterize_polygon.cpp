@@ -8,18 +8,20 @@
 namespace tessera::reference {
 namespace {
 
-/// Above 0 to the left of the way from a to b.
+/// Positive to the left of the line from a to b.
 std::int64_t edge(Point a, Point b, Point p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
-// In a counter-clockwise triangle with y up, left edges go down and top edges go left: they own the points on
-// them.
+// In a counter-clockwise triangle with y up, left edges go down and top edges go left; they include their
+// points.
 bool owns_its_points(Point a, Point b) { return b.y < a.y || (b.y == a.y && b.x < a.x); }
 
 bool is_inside(std::int64_t e, Point a, Point b) { return e > 0 || (e == 0 && owns_its_points(a, b)); }
 
-/// The edge functions of a point: opposite of a, of b and of c.
+/// Edge functions at a point, for the edges opposite to a, b and c.
 struct Edges {
-  std::int64_t a, b, c;
+  std::int64_t a;
+  std::int64_t b;
+  std::int64_t c;
 };
 
 template <class Part>
@@ -29,7 +31,9 @@ Edges edges(const Part& part, Point p) {
 
 template <class Part>
 bool covers(const Part& part, Point p) {
-  const Point a = part.a.at, b = part.b.at, c = part.c.at;
+  const Point a = part.a.at;
+  const Point b = part.b.at;
+  const Point c = part.c.at;
   const Edges e = edges(part, p);
   return is_inside(e.a, b, c) && is_inside(e.b, c, a) && is_inside(e.c, a, b);
 }
@@ -38,7 +42,7 @@ double ratio(std::int64_t part, std::int64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-// Depth is linear in the window; written so that equal depths stay exactly equal.
+// Depth is linear in the window. Formulated so that equal depths stay exact.
 template <class Part>
 double depth_at(const Part& part, Point p) {
   const Edges e = edges(part, p);
@@ -49,27 +53,32 @@ double depth_at(const Part& part, Point p) {
 template <class Part>
 void set_share(Fragment& fragment, const Part& part, Point p) {
   const Edges e = edges(part, p);
-  const double wa = ratio(e.a, part.area) * part.a.inverse_w, wb = ratio(e.b, part.area) * part.b.inverse_w,
-               wc = ratio(e.c, part.area) * part.c.inverse_w, sum = wa + wb + wc;
+  const double wa = ratio(e.a, part.area) * part.a.inverse_w;
+  const double wb = ratio(e.b, part.area) * part.b.inverse_w;
+  const double wc = ratio(e.c, part.area) * part.c.inverse_w;
+  const double sum = wa + wb + wc;
   fragment.weights.resize(part.a.weights.size());
   for (std::size_t i = 0; i < fragment.weights.size(); ++i)
     fragment.weights[i] =
         wa / sum * part.a.weights[i] + wb / sum * part.b.weights[i] + wc / sum * part.c.weights[i];
 }
 
-/// How the edge functions change from pixel to pixel.
+/// Gradients of the edge functions per pixel.
 struct EdgeSteps {
-  Edges dx, dy;
+  Edges dx;
+  Edges dy;
 };
 
 template <class Part>
 EdgeSteps edge_steps(const Part& part) {
-  const Point a = part.c.at - part.b.at, b = part.a.at - part.c.at, c = part.b.at - part.a.at;
+  const Point a = part.c.at - part.b.at;
+  const Point b = part.a.at - part.c.at;
+  const Point c = part.b.at - part.a.at;
   return {{-a.y * kSubpixels, -b.y * kSubpixels, -c.y * kSubpixels},
           {a.x * kSubpixels, b.x * kSubpixels, c.x * kSubpixels}};
 }
 
-// A share is a quotient of two linear functions of the window: the quotient rule.
+// A weight is a quotient of two linear functions of the window: quotient rule.
 template <class Part>
 void set_derivatives(Fragment& fragment, const Part& part, Point p) {
   const auto weights = [&](const Edges& e) {
@@ -103,7 +112,7 @@ WindowPolygon::WindowPolygon(const std::vector<ClipVertex>& polygon, const Windo
   for (std::size_t i = 2; i < vertices_.size(); ++i) {
     const auto [second, third] = signed_area_ > 0 ? std::pair{i - 1, i} : std::pair{i, i - 1};
     const std::int64_t area = fan_area(second, third);
-    // Else nothing, or a sliver of a clipped polygon that snapping turned over.
+    // A non-positive area is degenerate, or a sliver of a clipped polygon that snapping flipped.
     if (area > 0) parts_.push_back({vertices_[0], vertices_[second], vertices_[third], area});
   }
 }
@@ -117,7 +126,8 @@ double WindowPolygon::depth_slope() const {
   if (parts_.empty()) return 0;
   const auto& [a, b, c, area] = largest_part();
   const auto difference = [](std::int64_t p, std::int64_t q) { return static_cast<double>(p - q); };
-  const double b_depth = b.depth - a.depth, c_depth = c.depth - a.depth;
+  const double b_depth = b.depth - a.depth;
+  const double c_depth = c.depth - a.depth;
   const double per_pixel = static_cast<double>(kSubpixels) / static_cast<double>(area);
   return per_pixel *
          std::max(std::abs(b_depth * difference(c.at.y, a.at.y) - c_depth * difference(b.at.y, a.at.y)),
@@ -157,8 +167,8 @@ void WindowPolygon::for_each_fragment(double depth_offset, const FragmentCallbac
         fragment.depth[i] = std::clamp(depth_at(*part, sample) + depth_offset, 0.0, 1.0);
       }
       if (fragment.coverage == 0) continue;
-      const Part* covering =
-          part_at(centre);  // none: beyond the edge, where a sliver of the fan would say nonsense
+      // None beyond the edge, where a sliver of the fan would extrapolate.
+      const Part* covering = part_at(centre);
       const Part& part = covering != nullptr ? *covering : largest_part();
       set_share(fragment, part, centre);
       if (window_.derivatives) set_derivatives(fragment, part, centre);

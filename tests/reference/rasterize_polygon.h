@@ -1,5 +1,5 @@
-// Which samples a triangle covers, and where in the triangle each pixel lies: snapped vertices, exact edge
-// functions, the top-left rule, at each sample's own position. Nothing here knows of colours.
+// Triangle coverage, and barycentric weights of each pixel: snapped vertices, exact edge functions, the
+// top-left rule, at each sample's position. Independent of colours.
 #pragma once
 
 #include <vector>
@@ -13,30 +13,32 @@ class WindowPolygon {
  public:
   WindowPolygon(const std::vector<ClipVertex>& polygon, const Window& window);
 
-  /// Twice the area of the snapped polygon in (1/256 pixel)^2, above 0 if it is counter-clockwise with y up.
+  /// Twice the area of the snapped polygon in (1/256 pixel)^2, positive if counter-clockwise with y up.
   std::int64_t signed_area() const { return signed_area_; }
 
-  /// The larger of |dz/dx| and |dz/dy| of window depth, for each pixel.
+  /// max(|dz/dx|, |dz/dy|) of window depth, per pixel.
   double depth_slope() const;
 
-  /// The largest |z| of its vertices in the window.
+  /// Largest |z| of the vertices in the window.
   double largest_depth() const;
 
-  /// Calls `take` for each pixel covered.
+  /// Calls `take` for each covered pixel.
   /// @param depth_offset  added to every depth before it is clamped to 0..1.
   void for_each_fragment(double depth_offset, const FragmentCallback& take) const;
 
  private:
   /// Counter-clockwise, of positive area.
   struct Part {
-    WindowVertex a, b, c;
+    WindowVertex a;
+    WindowVertex b;
+    WindowVertex c;
     std::int64_t area;
   };
 
   const Part& largest_part() const;
 
   std::vector<WindowVertex> vertices_;
-  std::vector<Part> parts_;  // the polygon as a fan
+  std::vector<Part> parts_;  // triangle fan of the polygon
   std::int64_t signed_area_ = 0;
   Window window_;
 };

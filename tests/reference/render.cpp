@@ -35,7 +35,7 @@ class Renderer {
       for (int x = area.x; x < area.x + area.width; ++x) take(x, y);
   }
 
-  // Colours obey the dither, as every colour write does; an index is stored as it is.
+  // Colours are dithered like every colour write; an index is stored unchanged.
   void execute(const Clear& clear) {
     constexpr std::uint32_t kAllPlanes = ~std::uint32_t{0};
     for_each_pixel(clear.scissor, [&](int x, int y) {

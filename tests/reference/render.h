@@ -1,4 +1,4 @@
-// The reference renderer: a whole scene, one pixel at a time, in double precision.
+// The reference renderer: renders a scene one pixel at a time in double precision.
 #pragma once
 
 #include <cstdint>
@@ -9,26 +9,26 @@
 
 namespace tessera::reference {
 
-/// What a frame leaves in the buffers. Every vector has width_px * height_px elements (rgb three times as
-/// many), top row first. Of several samples words are their mean, depth and stencil those of sample 0.
+/// Buffer contents after a frame. Every vector has width_px * height_px elements (rgb three times as many),
+/// top row first. With several samples words are the resolved mean, depth and stencil those of sample 0.
 struct Picture {
   int width_px = 0;
   int height_px = 0;
   /// Stored colour: levels A:R:G:B (bit k is plane k), luminance level below alpha, or palette index.
   std::vector<std::uint32_t> words;
-  std::vector<std::uint8_t> rgb;  ///< what the words show, 8 bits a component
-  std::vector<double>
-      depth;  ///< of the fragment stored last, before rounding to a level; 1 without a depth buffer
-  std::vector<std::uint32_t>
-      depth_levels;  ///< stored depth: unorm level, or the bits of the float; 0 without a depth buffer
+  std::vector<std::uint8_t> rgb;  ///< displayed colours, 8 bits per component
+  /// Depth of the last stored fragment, before rounding to a level; 1 without a depth buffer.
+  std::vector<double> depth;
+  /// Stored depth: unorm level, or the bits of the float; 0 without a depth buffer.
+  std::vector<std::uint32_t> depth_levels;
   std::vector<std::uint8_t> stencil;  ///< 0 without a stencil buffer
-  std::vector<AccumPixel>
-      accumulation;  ///< levels of red, green, blue, alpha; empty without an accumulation buffer
-  std::vector<std::uint32_t>
-      sample_words;  ///< the word of each sample, those of a pixel side by side: `samples` times as many
-  std::vector<std::int32_t> draws;       ///< index in Scene::frame of the draw that wrote any sample's colour
-                                         ///< last, -1: none since the clear
-  std::vector<std::int32_t> primitives;  ///< and which primitive of its mesh; -1 for the background
+  /// Levels of red, green, blue, alpha; empty without an accumulation buffer.
+  std::vector<AccumPixel> accumulation;
+  /// Packed color of each sample, `samples` per pixel, adjacent.
+  std::vector<std::uint32_t> sample_words;
+  /// Index in Scene::frame of the draw that last wrote the colour of any sample; -1 for none since the clear.
+  std::vector<std::int32_t> draws;
+  std::vector<std::int32_t> primitives;  ///< primitive of that draw's mesh; -1 for the background
 
   std::size_t pixel(int x, int row_from_top) const {
     return static_cast<std::size_t>(row_from_top) * static_cast<std::size_t>(width_px) +
@@ -36,7 +36,7 @@ struct Picture {
   }
 };
 
-/// @param scene  as load_scene() and parse_scene() make it: they refuse what cannot be drawn.
+/// @param scene  as returned by load_scene() and parse_scene(), which reject invalid scenes.
 Picture render(const Scene& scene);
 
 }  // namespace tessera::reference

@@ -1,4 +1,4 @@
-// The buffers of a frame: colour, depth and stencil for each sample, accumulation for each pixel.
+// The buffers of a frame: colour, depth and stencil per sample, accumulation per pixel.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace tessera::reference {
 class SampleBuffers {
  public:
   struct Sample {
-    double depth = 1;  ///< of the fragment stored last, before rounding to a level
+    double depth = 1;  ///< of the last stored fragment, before rounding to a level
     std::uint32_t depth_level = 0;
     std::uint32_t stencil = 0;
   };
@@ -27,7 +27,7 @@ class SampleBuffers {
   const ColorFormat& colors() const { return colors_; }
   Rect rect() const { return {0, 0, format_.width_px, format_.height_px}; }
 
-  /// @param x, y  window coordinates, y up, in the buffer; so in the others.
+  /// @param x, y  window coordinates inside the buffer, y up; likewise below.
   std::uint32_t& word(int x, int y, int sample) {
     return words_[first_sample(x, y) + static_cast<std::size_t>(sample)];
   }
@@ -36,16 +36,16 @@ class SampleBuffers {
   }
   AccumPixel& accumulation(int x, int y) { return accumulation_[pixel(x, y)]; }
 
-  /// What is read back of a pixel: the mean of its samples.
+  /// Resolved colour of a pixel: the mean of its samples.
   std::uint32_t resolved(int x, int y) const;
 
-  /// The same for all samples of a pixel, through the planes that may change.
+  /// Writes all samples of a pixel through the writable planes.
   void write_word(int x, int y, std::uint32_t word, std::uint32_t planes);
 
-  /// Notes which primitive of which command wrote the colour last.
+  /// Records the primitive and command that wrote the colour last.
   void record_writer(int x, int y, std::int32_t command, std::int32_t primitive);
 
-  /// Everything as it is now.
+  /// A copy of the current contents.
   Picture picture() const;
 
  private:
@@ -59,10 +59,11 @@ class SampleBuffers {
 
   FrameBufferFormat format_;
   ColorFormat colors_;
-  std::vector<std::uint32_t> words_;  // a pixel's samples lie together; rows from the top
+  std::vector<std::uint32_t> words_;  // the samples of a pixel are adjacent; rows from the top
   std::vector<Sample> samples_;
   std::vector<AccumPixel> accumulation_;  // empty without the buffer
-  std::vector<std::int32_t> commands_, primitives_;
+  std::vector<std::int32_t> commands_;
+  std::vector<std::int32_t> primitives_;
 };
 
 }  // namespace tessera::reference

@@ -1,4 +1,4 @@
-// What shading says of a fragment.
+// Result of shading a fragment.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@ namespace tessera::reference {
 
 struct Shade {
   Vec4 color;  ///< 0..1
-  std::optional<double>
-      index;  ///< a palette index, continuous; if there is one it stands instead of the colour
+  /// A continuous palette index; replaces the colour if present.
+  std::optional<double> index;
 };
 
 }  // namespace tessera::reference

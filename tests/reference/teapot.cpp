@@ -1,4 +1,4 @@
-// Martin Newell's teapot from its 32 bicubic Bezier patches: positions and normals analytically, at each
+// Martin Newell's teapot from its 32 bicubic Bezier patches: analytic positions and normals at each
 // parameter.
 #include <algorithm>
 #include <fstream>
@@ -19,8 +19,8 @@ std::string teapot_patches_path;
 using Weights = std::array<double, 4>;
 using Patch = std::array<std::array<Vec3, 4>, 4>;  // [row][column], z up
 
-// The file is comment lines (#), the number of patches, 16 indices for each, the number of points, three
-// numbers for each.
+// File format: comment lines (#), the number of patches, 16 indices per patch, the number of points, three
+// coordinates per point.
 std::vector<Patch> read_patches() {
   std::ifstream file(teapot_patches_path);
   if (!file) throw std::runtime_error("cannot read the teapot's patches: '" + teapot_patches_path + "'");
@@ -28,7 +28,8 @@ std::vector<Patch> read_patches() {
   for (std::string line; std::getline(file, line);)
     if (!line.empty() && line[0] != '#') numbers << line << '\n';
 
-  std::size_t patch_count = 0, point_count = 0;
+  std::size_t patch_count = 0;
+  std::size_t point_count = 0;
   numbers >> patch_count;
   std::vector<std::array<std::size_t, 16>> indices(patch_count);
   for (auto& patch : indices)
@@ -62,16 +63,21 @@ Vec3 combine(const Patch& patch, const Weights& row, const Weights& column) {
 }
 
 // u runs down the rows, v along the columns; dP/dv x dP/du points out of the teapot. Where a row collapses
-// into a point (u fixed), dP/dv vanishes; just beside it dP/dv = du d2P/dudv with du pointing into the patch,
-// so that dP/dv has the direction of d2P/dudv at u = 0 and the opposite one at u = 1. The same holds for a
-// collapsed column.
+// into a point (u fixed), dP/dv vanishes. Next to it dP/dv = du d2P/dudv with du pointing into the patch, so
+// dP/dv has the direction of d2P/dudv at u = 0 and the opposite one at u = 1. The same holds for a collapsed
+// column.
 Vec3 unit_normal(const Patch& patch, double u, double v) {
-  const Weights bu = bernstein(u), bv = bernstein(v), du = bernstein_derivative(u),
-                dv = bernstein_derivative(v);
-  const Vec3 pu = combine(patch, du, bv), pv = combine(patch, bu, dv), puv = combine(patch, du, dv);
+  const Weights bu = bernstein(u);
+  const Weights bv = bernstein(v);
+  const Weights du = bernstein_derivative(u);
+  const Weights dv = bernstein_derivative(v);
+  const Vec3 pu = combine(patch, du, bv);
+  const Vec3 pv = combine(patch, bu, dv);
+  const Vec3 puv = combine(patch, du, dv);
   constexpr double kNull = 1e-9;
   if (const Vec3 n = cross(pv, pu); length(n) > kNull) return normalize(n);
-  const double into_u = u < 0.5 ? 1 : -1, into_v = v < 0.5 ? 1 : -1;
+  const double into_u = u < 0.5 ? 1 : -1;
+  const double into_v = v < 0.5 ? 1 : -1;
   if (length(pv) <= kNull) {
     if (const Vec3 n = into_u * cross(puv, pu); length(n) > kNull) return normalize(n);
   }
@@ -89,19 +95,20 @@ void set_teapot_patches(const std::string& path) { teapot_patches_path = path; }
 
 Mesh teapot_mesh(int detail) {
   Mesh mesh;
+  // Parameter s runs along the columns, t down the rows: counter-clockwise.
   for (const Patch& patch : read_patches())
-    append_quads(mesh, detail, detail,
-                 [&](double s, double t) {  // s along the columns, t down the rows: wound ccw
-                   return SurfacePoint{z_up_to_y_up(combine(patch, bernstein(t), bernstein(s))),
-                                       z_up_to_y_up(unit_normal(patch, t, s))};
-                 });
+    append_quads(mesh, detail, detail, [&](double s, double t) {
+      return SurfacePoint{z_up_to_y_up(combine(patch, bernstein(t), bernstein(s))),
+                          z_up_to_y_up(unit_normal(patch, t, s))};
+    });
 
   Vec3 low = xyz(mesh.positions[0]), high = low;
   for (const Vec4 p : mesh.positions) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  const Vec3 centre = 0.5 * (low + high), size = high - low;
+  const Vec3 centre = 0.5 * (low + high);
+  const Vec3 size = high - low;
   const double scale = 2 / std::max({size.x, size.y, size.z});
   for (Vec4& p : mesh.positions)
     p = {scale * (p.x - centre.x), scale * (p.y - centre.y), scale * (p.z - centre.z), 1};

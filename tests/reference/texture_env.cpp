@@ -9,11 +9,14 @@ Vec4 with_alpha(Vec3 color, double alpha) { return {color.x, color.y, color.z, a
 
 }  // namespace
 
-// The alpha of a texel without alpha is 1: where the tables multiply by it, they need no columns of their
-// own.
+// A texel without alpha has alpha 1. Where the tables multiply by it, formats without alpha need no separate
+// columns.
 Vec4 textured(TextureEnv env, Vec4 fragment, Vec4 texel, int channels, Vec4 constant) {
   const bool has_alpha = channels == 2 || channels == 4;
-  const Vec3 f = xyz(fragment), t = xyz(texel), c = xyz(clamp01(constant)), one{1, 1, 1};
+  const Vec3 f = xyz(fragment);
+  const Vec3 t = xyz(texel);
+  const Vec3 c = xyz(clamp01(constant));
+  const Vec3 one{1, 1, 1};
   switch (env) {
     case TextureEnv::kModulate: return with_alpha(f * t, fragment.w * texel.w);
     case TextureEnv::kReplace: return with_alpha(t, has_alpha ? texel.w : fragment.w);

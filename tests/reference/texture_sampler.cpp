@@ -6,7 +6,7 @@
 namespace tessera::reference {
 namespace {
 
-/// A stretch of texels on a scale on which both mipmaps' texels are whole.
+/// Length of the overlap of two intervals, in units in which the texels of both mipmaps are integral.
 std::int64_t overlap(std::int64_t a0, std::int64_t a1, std::int64_t b0, std::int64_t b1) {
   return std::max(std::int64_t{0}, std::min(a1, b1) - std::max(a0, b0));
 }
@@ -21,7 +21,8 @@ bool is_linear_in_level(MinFilter filter) {
 }
 
 double mirrored(double f) {
-  const double whole = std::floor(f), fraction = f - whole;
+  const double whole = std::floor(f);
+  const double fraction = f - whole;
   return std::fmod(whole, 2) == 0 ? fraction : 1 - fraction;
 }
 
@@ -52,11 +53,13 @@ Vec4 pixel_color(const Image& image, std::int64_t column, std::int64_t row) {
 
 Image next_mipmap(const Image& image) {
   Image next{std::max(1, image.width / 2), std::max(1, image.height / 2), image.channels, {}};
-  const std::int64_t w = image.width, h = image.height, area = w * h;
+  const std::int64_t w = image.width;
+  const std::int64_t h = image.height;
+  const std::int64_t area = w * h;
   for (std::int64_t j = 0; j < next.height; ++j)
     for (std::int64_t i = 0; i < next.width; ++i)
       for (std::int64_t channel = 0; channel < image.channels; ++channel) {
-        std::int64_t sum = 0;  // weights sum to `area`
+        std::int64_t sum = 0;  // the weights sum to `area`
         for (std::int64_t y = j * h / next.height; y * next.height < (j + 1) * h; ++y)
           for (std::int64_t x = i * w / next.width; x * next.width < (i + 1) * w; ++x)
             sum += overlap(i * w, (i + 1) * w, x * next.width, (x + 1) * next.width) *
@@ -79,10 +82,11 @@ TextureSampler::TextureSampler(const Texture& texture)
 }
 
 double TextureSampler::level_of_detail(TexCoord d_dx, TexCoord d_dy) const {
-  const double w = mipmaps_[0].width, h = mipmaps_[0].height;
+  const double w = mipmaps_[0].width;
+  const double h = mipmaps_[0].height;
   const auto texels = [&](TexCoord d) {
     return std::hypot(w * d.s, h > 1 ? h * d.t : 0.0);
-  };  // one row: no t
+  };  // one row: t is ignored
   return std::log2(std::max(texels(d_dx), texels(d_dy)));
 }
 
@@ -99,7 +103,8 @@ Vec4 TextureSampler::linear(std::size_t level, TexCoord at) const {
   const auto [w, h] = std::pair{mipmaps_[level].width, mipmaps_[level].height};
   const double u = wrapped(at.s, wrap_s_, w) * w - 0.5, v = wrapped(at.t, wrap_t_, h) * h - 0.5;
   const double a = u - std::floor(u), b = v - std::floor(v);
-  const auto i = static_cast<std::int64_t>(std::floor(u)), j = static_cast<std::int64_t>(std::floor(v));
+  const auto i = static_cast<std::int64_t>(std::floor(u));
+  const auto j = static_cast<std::int64_t>(std::floor(v));
   const auto at_texel = [&, width = w, height = h](std::int64_t x, std::int64_t y) {
     return pixel_color(mipmaps_[level], wrapped_texel(x, wrap_s_, width), wrapped_texel(y, wrap_t_, height));
   };
@@ -109,9 +114,9 @@ Vec4 TextureSampler::linear(std::size_t level, TexCoord at) const {
 
 Vec4 TextureSampler::sample(TexCoord at, double lambda) const {
   if (mipmaps_[0].height == 1) at.t = 0.5;  // a 1-D texture
-  if (!std::isfinite(at.s) || !std::isfinite(at.t))
-    at = {};  // beyond the horizon of a plane, at a centre that is not covered
-  // Where magnification is the sharper filter, it gives way half a level later.
+  // Beyond the horizon of a plane, at an uncovered centre.
+  if (!std::isfinite(at.s) || !std::isfinite(at.t)) at = {};
+  // If magnification is the sharper filter, it switches half a level later.
   const bool is_late = mag_ == MagFilter::kLinear &&
                        (min_ == MinFilter::kNearestMipmapNearest || min_ == MinFilter::kNearestMipmapLinear);
   if (!(lambda > (is_late ? 0.5 : 0.0))) return mag_ == MagFilter::kLinear ? linear(0, at) : nearest(0, at);

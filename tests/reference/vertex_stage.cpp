@@ -5,7 +5,7 @@
 namespace tessera::reference {
 namespace {
 
-// The inverse transpose of the upper left 3x3 part; for a singular matrix its cofactors, which have the right
+// Inverse transpose of the upper left 3x3 part. For a singular matrix its cofactors, which have the right
 // direction.
 Mat4 normal_matrix(const Mat4& m) {
   const auto column = [&](std::size_t c) { return Vec3{m.rows[0][c], m.rows[1][c], m.rows[2][c]}; };

@@ -12,19 +12,19 @@ namespace tessera::reference {
 struct Corner {
   Vec4 position_clip;
   Vec3 position_eye;
-  Vec3 normal_eye;  ///< normalized if the draw says so; null if the draw is unlit
-  Vec4 color;       ///< the vertex colour as given; unused if the mesh has none
+  Vec3 normal_eye;  ///< normalized if the draw says so; null if unlit
+  Vec4 color;       ///< the vertex colour; unused if the mesh has none
   TexCoord texcoord;
-  double index = 0;  ///< the palette index as given; unused if the mesh has none
+  double index = 0;  ///< the palette index; unused if the mesh has none
 };
 
-/// The corners of one point, line or polygon, in the order of Primitive::vertices.
+/// Corners of one point, line or polygon, in the order of Primitive::vertices.
 struct Corners {
   std::vector<Corner> all;
   std::size_t provoking = 0;
 };
 
-/// The primitives of a mesh under one draw and one camera, one at a time.
+/// Iterates over the primitives of a mesh under one draw and one camera.
 class VertexStage {
  public:
   VertexStage(const Mesh& mesh, const Draw& draw, const Camera& camera);

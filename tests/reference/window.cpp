@@ -6,7 +6,7 @@
 namespace tessera::reference {
 namespace {
 
-// Relative to the viewport's centre, so that whole pixels of offset never change it.
+// Relative to the viewport's centre, so that moving the viewport by whole pixels changes nothing.
 std::int64_t snap(double pixels_from_centre) {
   return static_cast<std::int64_t>(std::floor(pixels_from_centre * kSubpixels + 0.5));
 }
@@ -14,8 +14,8 @@ std::int64_t snap(double pixels_from_centre) {
 std::int64_t floor_pixel(std::int64_t subpixels) { return subpixels >> 8; }
 static_assert(kSubpixels == 1 << 8);
 
-// The standard patterns of Direct3D 11, in 1/16 pixel, turned over: theirs are written with y down. All lie
-// within their pixel.
+// The standard patterns of Direct3D 11 in 1/16 pixel, flipped vertically: Direct3D's y points down. All
+// samples are inside their pixel.
 constexpr std::int64_t k16th = kSubpixels / 16;
 
 template <std::size_t N>
@@ -46,7 +46,8 @@ ClipVolume clip_volume(const Camera& camera, Rect viewport) {
 WindowVertex window_vertex(const ClipVertex& vertex, const Window& window) {
   const Rect& viewport = window.viewport;
   const Vec4 p = vertex.position;
-  const double z = p.z / p.w, depth = window.reversed ? z : (z + 1) / 2;
+  const double z = p.z / p.w;
+  const double depth = window.reversed ? z : (z + 1) / 2;
   return {
       {snap(p.x / p.w * viewport.width / 2) + viewport.width * kSubpixels / 2,
        snap(p.y / p.w * viewport.height / 2) + viewport.height * kSubpixels / 2},
@@ -63,7 +64,8 @@ std::span<const Point> sample_offsets(int samples) {
 
 Pixels visible_pixels(Point low, Point high, const Window& window) {
   const Rect& visible = window.visible;
-  const std::int64_t left = visible.x - window.viewport.x, bottom = visible.y - window.viewport.y;
+  const std::int64_t left = visible.x - window.viewport.x;
+  const std::int64_t bottom = visible.y - window.viewport.y;
   return {std::max(left, floor_pixel(low.x)), std::min(left + visible.width - 1, floor_pixel(high.x)),
           std::max(bottom, floor_pixel(low.y)), std::min(bottom + visible.height - 1, floor_pixel(high.y))};
 }

@@ -1,4 +1,4 @@
-// The window that primitives are rasterized in: snapped vertices, pixels, samples, fragments.
+// Window space for rasterization: snapped vertices, pixels, samples, fragments.
 #pragma once
 
 #include <array>
@@ -11,17 +11,17 @@
 
 namespace tessera::reference {
 
-/// Where on the screen a draw may leave fragments.
+/// Where a draw may produce fragments.
 struct Window {
   Rect viewport;  ///< may reach beyond the buffer
-  Rect visible;   ///< viewport, scissor and buffer in common
+  Rect visible;   ///< intersection of viewport, scissor and buffer
   std::array<double, 2> depth_range{0, 1};
   bool reversed = false;
   int samples = 1;
-  bool derivatives = false;  ///< fragments bring the derivatives of their shares
+  bool derivatives = false;  ///< fragments need the derivatives of their weights
 };
 
-/// The part that two rectangles have in common; width or height 0 if there is none.
+/// Intersection of two rectangles; width or height 0 if empty.
 Rect intersection(Rect a, Rect b);
 
 /// Vertices are snapped to 1/256 pixel.
@@ -33,13 +33,13 @@ inline constexpr std::int64_t kExtent = std::int64_t{1} << 21;
 inline constexpr std::int64_t kMaxDifference = 2 * (kExtent + 1) * kSubpixels;
 static_assert(kMaxDifference <= INT64_MAX / kMaxDifference / 2);
 
-/// Points and lines that are larger, in pixels, are drawn at this size, which more than covers any window.
+/// Larger points and lines are drawn at this size in pixels, which more than covers any window.
 inline constexpr double kMaxSize = 1 << 18;
 
 /// A guard band that keeps every snapped coordinate within kExtent.
 ClipVolume clip_volume(const Camera& camera, Rect viewport);
 
-/// In 1/256 pixel from the viewport's lower left corner.
+/// A point in 1/256 pixel from the viewport's lower left corner.
 struct Point {
   std::int64_t x = 0, y = 0;
 };
@@ -58,31 +58,35 @@ WindowVertex window_vertex(const ClipVertex& vertex, const Window& window);
 
 inline constexpr std::size_t kMaxSamples = 8;
 
-/// Where the samples of a pixel lie, from its centre. Vertices lie on a grid of which these are points.
+/// Sample positions relative to the pixel's centre, on the snapping grid.
 /// @param samples  1, 4 or 8
 std::span<const Point> sample_offsets(int samples);
 
-/// One pixel of which at least one sample is covered.
+/// A pixel with at least one covered sample.
 struct Fragment {
   int x = 0, y = 0;            ///< window, y up
   std::uint32_t coverage = 0;  ///< bit i: sample i is covered
-  std::array<double, kMaxSamples>
-      depth{};  ///< of each covered sample: after depth range and offset, 0..1, not yet rounded to a level
-  CornerWeights weights;  ///< perspective-correct, of each of the primitive's corners, at the pixel's centre,
-                          ///< covered or not
-  /// Derivatives of the shares there, for each pixel, if the window asks for them. Of a line the one along it
-  /// stands in x [GL 2.1, equation 3.15]; of a point they are 0.
-  CornerWeights weights_dx, weights_dy;
+  /// Depth of each covered sample after depth range and offset, 0..1, not rounded to a level.
+  std::array<double, kMaxSamples> depth{};
+  /// Perspective-correct weights of the primitive's corners at the pixel's centre, covered or not.
+  CornerWeights weights;
+  /// Derivatives of the weights per pixel, if the window requests them. For a line, x holds the derivative
+  /// along it [GL 2.1, equation 3.15]; for a point they are 0.
+  CornerWeights weights_dx;
+  CornerWeights weights_dy;
 };
 
 using FragmentCallback = std::function<void(const Fragment&)>;
 
-/// The visible pixels from column and row `first` to `last`, numbered from the viewport's lower left corner.
+/// Visible pixels from column and row `first` to `last`, counted from the viewport's lower left corner.
 struct Pixels {
-  std::int64_t first_x = 0, last_x = 0, first_y = 0, last_y = 0;
+  std::int64_t first_x = 0;
+  std::int64_t last_x = 0;
+  std::int64_t first_y = 0;
+  std::int64_t last_y = 0;
 };
 
-/// The visible pixels of the smallest rectangle that holds all points between `low` and `high`.
+/// Visible pixels of the smallest rectangle that contains all points between `low` and `high`.
 Pixels visible_pixels(Point low, Point high, const Window& window);
 
 inline Point pixel_centre(std::int64_t x, std::int64_t y) {

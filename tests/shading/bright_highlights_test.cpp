@@ -1,5 +1,5 @@
-// Lights far beyond 1 show the feet of their highlights, by every kernel: what is next to nothing is
-// multiplied by next to infinity.
+// Lights far brighter than 1 make the tails of highlights visible: near-zero bases times near-infinite
+// factors, in every kernel.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,8 +10,8 @@
 namespace tessera::test {
 namespace {
 
-/// Light and eye are straight before a surface that leans away, so that S.n, or R.E, is `cosine` and no other
-/// number of the highlight is rounded.
+/// Light and eye are in front of a tilted surface such that S.n (or R.E) is `cosine` and no other factor of
+/// the highlight is rounded.
 struct BrightHighlight {
   LightKind kind = LightKind::point;
   bool local_viewer = false, phong_highlight = false, colors_vertices = false;
@@ -38,8 +38,8 @@ struct BrightHighlight {
   }
   double factor() const { return static_cast<double>(brightness) / constant; }
   std::vector<LightingPoint> points(double cosine) const {
-    const double z =
-        phong_highlight ? std::sqrt((1 + cosine) / 2) : cosine;  // R.E is the cosine of twice the angle
+    // R.E is the cosine of twice the angle.
+    const double z = phong_highlight ? std::sqrt((1 + cosine) / 2) : cosine;
     const LightingPoint p{{static_cast<float>(std::sqrt(1 - z * z)), 0, static_cast<float>(z)},
                           {0, 0, -2},
                           {brightness, brightness, brightness}};
@@ -60,9 +60,9 @@ std::vector<BrightHighlight> all_highlights() {
 }
 
 constexpr float kExponents[] = {0.6f, 1, 1.5f, 2, 10, 60, 1000, 5000};
-constexpr double kShares[] = {0.1, 0.4, 0.8};  // that are to be seen
+constexpr double kShares[] = {0.1, 0.4, 0.8};  // visible values to compare
 
-TEST(BrightHighlights, ShowTheirFeet) {
+TEST(BrightHighlights, ShowTheirTails) {
   std::size_t compared = 0, squared = 0, sharp = 0;
   for (const BrightHighlight& bright : all_highlights()) {
     const bool is_attenuated =
@@ -71,7 +71,7 @@ TEST(BrightHighlights, ShowTheirFeet) {
     for (const float exponent : kExponents)
       for (const double share : kShares) {
         const double cosine = std::pow(share / bright.factor(), 1 / double{exponent});
-        if (cosine < (bright.phong_highlight ? 0.01 : 1e-36)) continue;  // no float would say it
+        if (cosine < (bright.phong_highlight ? 0.01 : 1e-36)) continue;  // smaller than any float
         const LightingProgram program = bright.lit(exponent).program();
         squared += program.terms[0].squared, sharp += program.terms[0].sharp;
         for (const InstructionSet isa : available_isas()) {
@@ -88,21 +88,21 @@ TEST(BrightHighlights, ShowTheirFeet) {
   EXPECT_TRUE(compared > 1500 && squared > 300 && sharp > 150) << compared << " " << squared << " " << sharp;
 }
 
-// Of what is not multiplied by more than 1, no more is looked at than is seen.
-TEST(BrightHighlights, AreLookedForNoFurtherThanTheyAreSeen) {
+// Highlights that no factor above 1 amplifies are evaluated only where they are visible.
+TEST(BrightHighlights, AreElidedWhereInvisible) {
   BrightHighlight bright{.kind = LightKind::attenuated_point};
   const auto floor_of = [&](float constant) {
     bright.constant = constant;
-    return bright.lit(64).program().terms[0].highlight_floor;  // of the square: 2^(-bits / 32)
+    return bright.lit(64).program().terms[0].highlight_floor;  // for the square: 2^(-bits / 32)
   };
   EXPECT_EQ(floor_of(2), std::exp2(-32.0f / 32));
   EXPECT_EQ(floor_of(1), std::exp2(-32.0f / 32));
   EXPECT_NEAR(floor_of(0.75f), std::exp2(-33.0f / 32), 1e-7);
   EXPECT_NEAR(floor_of(0x1p-10f), std::exp2(-43.0f / 32), 1e-7);
-  EXPECT_NEAR(floor_of(0), std::exp2(-126.0f / 32), 1e-7) << "with the distance it may come to any";
+  EXPECT_NEAR(floor_of(0), std::exp2(-126.0f / 32), 1e-7) << "attenuation by distance alone is unbounded";
 }
 
-TEST(BrightHighlights, OfIndicesShowTheirFeet) {
+TEST(BrightHighlights, IndexHighlightsShowTheirTails) {
   for (const BrightHighlight& bright : all_highlights())
     for (const float exponent : kExponents)
       for (const double share : kShares) {

@@ -1,4 +1,4 @@
-// The operations on fragments, for arrays of any length that is a multiple of 16, on each instruction set.
+// Fragment operations over arrays whose length is a multiple of 16, on each instruction set.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,16 @@ using namespace detail;
 struct FragmentArrays {
   std::size_t count;
   const float* source[4];      ///< r g b a
-  const std::int32_t* stored;  ///< words, or stencil values
-  const std::int32_t*
-      outcome;  ///< stencil: 0 nothing, 1 passed the test and failed the depth test, 2 passed both
+  const std::int32_t* stored;  ///< packed colors or stencil values
+  /// Stencil: 0 failed the stencil test, 1 failed the depth test, 2 passed both.
+  const std::int32_t* outcome;
   float threshold;
   std::int32_t* words;  ///< out
 };
 
-/// Blends (if asked for), stores and combines.
+/// Blends (if enabled), quantizes and applies the logic operation.
 using StoreFragments = void(const FragmentOps& ops, const ColorLayout& layout, const FragmentArrays& arrays);
-/// Stencil: bit 8 of words is whether the test passes, the lower bits are the value after it.
+/// Stencil: bit 8 of `words` is whether the test passes, the lower bits are the resulting value.
 using TestStencil = void(const StencilSide& side, std::int32_t most, const FragmentArrays& arrays);
 
 StoreFragments* store_fragments(InstructionSet isa);

@@ -1,5 +1,5 @@
-// The operations on fragments: lanes against the scalar twin bit for bit, and the twin against the reference
-// renderer's own functions, over whole truth tables.
+// Fragment operations: lanes against the scalar twin bit for bit, and the twin against the reference
+// renderer, over complete truth tables.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ TEST(FragmentOps, StencilTruthTables) {
                                                                 {5, 6, 255},
                                                                 {200, 255, 0x55},
                                                                 {77, 0, 0}}) {
-          // Each operation stands in each outcome once, beside others.
+          // Each operation occurs once per outcome, together with others.
           const StencilSide side{.func = static_cast<Compare>(func),
                                  .reference = std::min(reference_value, most),
                                  .mask = mask & most,
@@ -122,8 +122,8 @@ std::vector<ColorLayout> layouts() {
   return all;
 }
 
-// All pairs of factors for colour and for alpha, all equations, all depths: twin bit for bit, and within the
-// rounding of floats of the reference's doubles.
+// All pairs of factors for colour and alpha, all equations, all bit depths: twin bit for bit, and within
+// float rounding of the reference's doubles.
 TEST(FragmentOps, BlendFactorsAndEquations) {
   Samples samples(64);
   for (const ColorLayout& layout : layouts()) {
@@ -184,7 +184,7 @@ TEST(FragmentOps, LevelsLogicAndThresholdsInEveryLayout) {
     }
 }
 
-TEST(FragmentOps, DitherPatternsAreTheReferences) {
+TEST(FragmentOps, DitherPatternsMatchTheReference) {
   for (const int height : {1, 7, 8, 480})
     for (const auto& [n, dither] : {std::pair{1, reference::Dither::kNone},
                                     {2, reference::Dither::kBayer2},

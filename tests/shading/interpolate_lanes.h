@@ -1,5 +1,5 @@
-// Barycentric coordinates of a triangle's pixels as the kernels compute them, one tile at a time, and what
-// they interpolate by them.
+// Barycentric coordinates of a triangle's pixels as computed by the kernels, one tile at a time, and
+// attributes interpolated with them.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 namespace tessera::test {
 using namespace detail;
 
-/// Fills b1 and b2, tile_size^2 each, in rows. False where the triangle has no pixel in the tile.
+/// Fills b1 and b2, tile_size^2 each, row by row. Returns false if the triangle has no pixel in the tile.
 using TileBarycentrics = bool(const WindowVertex (&vertices)[3], int tile_x, int tile_y, int tile_size,
                               float* b1, float* b2);
 TileBarycentrics* tile_barycentrics(InstructionSet isa);
 
-/// A value at `count` points, a multiple of 16, by each of the kernels' ways.
+/// One attribute at `count` points, a multiple of 16, by each interpolation kernel.
 struct InterpolatedValues {
   float *alone, *in_lanes, *of_several;  ///< Interpolant, InterpolantLanes, InterpolantArrays
-  float *within,
-      *within_lanes;  ///< kept within the range of the vertices: Interpolant, ClampedInterpolantLanes
+  /// Clamped to the range of the vertices: Interpolant, ClampedInterpolantLanes.
+  float *within, *within_lanes;
 };
 using InterpolateValues = void(const float (&at_vertices)[3], const float* b1, const float* b2,
                                std::size_t count, const InterpolatedValues& values);

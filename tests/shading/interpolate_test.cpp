@@ -1,5 +1,5 @@
-// Barycentric coordinates and what is interpolated by them: the bits of their scalar twins on every
-// instruction set, and perspective as exact arithmetic has it.
+// Barycentric coordinates and interpolated attributes: bit-identical to their scalar twins on every
+// instruction set, and close to exact perspective.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kTile = 32;
 
-// 1/w of the corners: equal, or apart by up to `decades`.
+// 1/w of the corners: equal, or different by up to `decades` powers of ten.
 void set_random_w(RandomTriangles& source, Triangle& t, double decades) {
   const double base = std::pow(10.0, 6 * source.unit() - 3);
   for (WindowVertex& v : t)
@@ -55,7 +55,7 @@ void for_each_pixel(std::uint32_t seed, int rounds, double decades, const CheckP
 }
 int rounds(int normal) { return long_tests() ? normal * 30 : normal; }
 
-TEST(Interpolate, HasTheBitsOfItsTwin) {
+TEST(Interpolate, BarycentricsMatchTheScalarTwin) {
   for_each_pixel(
       31, rounds(1500), 6,
       [](const Triangle& t, const TriangleReference&, int x, int y, float b1, float b2, InstructionSet isa) {
@@ -68,9 +68,9 @@ TEST(Interpolate, HasTheBitsOfItsTwin) {
       });
 }
 
-// All terms are positive and each is rounded a handful of times: 1/area, its product with 1/w, the edge, the
-// multiply-add, two sums, the quotient and the product: nine roundings, 9 * 2^-24 of a number that is at
-// most 1.
+// All terms are positive and rounded a few times each: 1/area, its product with 1/w, the edge, the
+// multiply-add, two sums, the quotient and the product: nine roundings, 9 * 2^-24 of a number that is at most
+// 1.
 TEST(Interpolate, IsWithinNineRoundingsOfPerspective) {
   for (const double decades : {0.5, 6.0, 12.0}) {
     double worst = 0;
@@ -95,7 +95,7 @@ TEST(Interpolate, IsWithinNineRoundingsOfPerspective) {
 
 constexpr std::size_t kPoints = 64;
 
-/// A value at points in a triangle and, as pixels' centres may be with several samples, beside it.
+/// An attribute at points inside a triangle and, like the centres of multisampled pixels, outside of it.
 struct InterpolatedPoints {
   std::array<float, kPoints> b1, b2, alone, in_lanes, of_several, within, within_lanes;
 
@@ -116,7 +116,7 @@ struct InterpolatedPoints {
   }
 };
 
-TEST(Interpolate, ValuesHaveTheBitsOfTheirTwin) {
+TEST(Interpolate, ValuesMatchTheScalarTwin) {
   RandomTriangles source(33, kTile);
   for (int round = 0; round < rounds(2000); ++round) {
     InterpolatedPoints points(source);

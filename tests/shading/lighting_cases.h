@@ -1,5 +1,4 @@
-// Random surfaces under random lights, and the lighting equation as it stands in the specification, in
-// double.
+// Random surfaces under random lights, and the lighting equation of the specification in double.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +12,7 @@
 namespace tessera::test {
 using namespace detail;
 
-/// All that plan_lighting() is told, and a face.
+/// Inputs of plan_lighting() and the facing.
 struct LightingCase {
   SurfaceMaterial material;
   TrackedColors tracked;
@@ -65,7 +64,7 @@ class RandomLighting {
       constexpr float kExponents[] = {0, 0.5f, 1, 2, 20, 128, 1000};
       l.spot_cutoff = kCutoffs[std::uniform_int_distribution<std::size_t>(0, 6)(random_)];
       l.spot_exponent = kExponents[std::uniform_int_distribution<std::size_t>(0, 6)(random_)];
-      // Most of them towards the scene.
+      // Most of them point towards the scene.
       if (!l.directional && !one_in(4)) {
         const float length = std::sqrt(l.position[0] * l.position[0] + l.position[1] * l.position[1] +
                                        (l.position[2] + 3) * (l.position[2] + 3)) +
@@ -109,7 +108,7 @@ class RandomLighting {
   std::mt19937 random_;
 };
 
-/// Section 5 of the specification. `smooth` turns false where the formula jumps within rounding of this
+/// Section 5 of the specification. Clears `smooth` if the formula is discontinuous within rounding of this
 /// point.
 inline std::array<double, 3> lighting_formula(const LightingCase& c, const LightingPoint& p, bool& smooth) {
   using Vec = std::array<double, 3>;
@@ -164,7 +163,7 @@ inline std::array<double, 3> lighting_formula(const LightingCase& c, const Light
       const Vec r{2 * n_dot_l * n[0] - l[0], 2 * n_dot_l * n[1] - l[1], 2 * n_dot_l * n[2] - l[2]};
       const double base = c.model.phong_highlight ? dot(r, e) : dot(normalized(half), n);
       highlight = power(base, c.material.shininess);
-      // x^y starts with a jump for y = 0 and steeply for y < 1. Normals longer than 1 make it explode.
+      // x^y is discontinuous at 0 for y = 0 and steep for y < 1. Normals longer than 1 make it diverge.
       smooth &= c.material.shininess >= 1 || c.material.shininess == 0 || base > 1e-3 || base < -1e-3;
       smooth &= c.material.shininess <= 20 || base < 1.00001;
     }

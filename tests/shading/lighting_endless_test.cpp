@@ -1,5 +1,5 @@
-// Lighting by numbers that no float holds: what is lit is full, what is black stays black, and every
-// instruction set has the same.
+// Lighting whose intermediate values overflow float: lit components saturate, black components stay black,
+// and every instruction set gives the same result.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,9 +14,9 @@ namespace tessera::test {
 using namespace detail;
 namespace {
 
-// Long normals (of scaled models, not normalized) to a high power, times a bright light: red is full, the
-// others know nothing of it.
-TEST(LightingSpecialCase, EndlessHighlightsLeaveBlackComponentsAlone) {
+// Long normals (of scaled models, not normalized) to a high power, times a bright light: red saturates, the
+// other components are unaffected.
+TEST(LightingOverflow, InfiniteHighlightsLeaveBlackComponentsAlone) {
   for (const float length : {1.5f, 3.0f, 100.0f}) {
     KnownColorCase s;
     s.c.material.specular = {1, 0, 0};
@@ -33,9 +33,9 @@ TEST(LightingSpecialCase, EndlessHighlightsLeaveBlackComponentsAlone) {
   }
 }
 
-// Squares of distances from 2^64 on are no floats: attenuation is that of the largest ones, and a million
-// only where its denominator is not positive.
-TEST(LightingSpecialCase, AttenuationOfEndlessDistancesHasAnEnd) {
+// Squared distances from 2^64 on overflow. Attenuation then uses the largest float, and is 10^6 only if its
+// denominator is not positive.
+TEST(LightingOverflow, AttenuationOfHugeDistancesIsFinite) {
   struct Row {
     std::array<float, 3> attenuation;
     double factor;
@@ -61,7 +61,7 @@ TEST(LightingSpecialCase, AttenuationOfEndlessDistancesHasAnEnd) {
     }
 }
 
-/// A light that brings more than any number, or one of whose factors is more.
+/// A light whose contribution, or one of whose factors, overflows float.
 struct EndlessLight {
   const char* name;
   std::array<float, 3> normal, position;
@@ -98,7 +98,7 @@ std::vector<EndlessLight> endless_lights() {
     e.light.spot_cutoff = 90;
     e.light.spot_exponent = 16384;
   });
-  // The cosine of its direction and its axis is 1 + 2^-23.
+  // The cosine between its direction and its axis is 1 + 2^-23.
   add("the largest colour in a cone's axis", {0, 0, 1}, [&](EndlessLight& e) {
     e.light.directional = true;
     e.light.position = {kSixth, kSixth, 2 * kSixth};
@@ -109,9 +109,9 @@ std::vector<EndlessLight> endless_lights() {
   });
   return all;
 }
-// What is lit is full, what faces away is not, and black stays black: of the light, of the vertices, and also
-// under highlights without end.
-TEST(LightingSpecialCase, EndlessLightsLeaveBlackComponentsAlone) {
+// Lit components saturate, back-facing points stay unlit, and black stays black: for black lights, black
+// vertices, and under infinite highlights.
+TEST(LightingOverflow, InfiniteLightsLeaveBlackComponentsAlone) {
   for (const EndlessLight& endless : endless_lights())
     for (const bool tracked : {false, true})
       for (const float ambient : {0.0f, 1.0f}) {
@@ -145,14 +145,14 @@ TEST(LightingSpecialCase, EndlessLightsLeaveBlackComponentsAlone) {
           }
         }
         expect_same_bits(s.c.program(), s.points);
-        // And where no point of a batch is lit.
+        // Same for batches without a lit point.
         std::vector<LightingPoint> away;
         for (std::size_t i = 16; i < s.points.size(); i += 2) away.push_back(s.points[i]);
         expect_same_bits(s.c.program(), away);
       }
 }
-// Vertex colours are any numbers, and what is between them may be none: black light makes nothing of them.
-TEST(LightingSpecialCase, BlackLightOnEndlessVertexColors) {
+// Vertex colours may be any number and interpolate to NaN; a black light contributes nothing.
+TEST(LightingOverflow, BlackLightOnInfiniteVertexColors) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   KnownColorCase s;
   s.c.tracked.diffuse = true;
@@ -168,9 +168,8 @@ TEST(LightingSpecialCase, BlackLightOnEndlessVertexColors) {
     }
   expect_same_bits(s.c.program(), s.points);
 }
-// A highlight without end is full as one is that has an end: the index is the specular one at most, and
-// masked.
-TEST(LightingSpecialCase, IndicesUnderEndlessHighlights) {
+// An infinite highlight counts as a full one: the index is at most the specular index, and masked.
+TEST(LightingOverflow, IndicesUnderInfiniteHighlights) {
   for (const float brightness : {1e20f, 3e38f}) {
     KnownColorCase s;
     s.light().diffuse = s.light().ambient = {0, 0, 0};
@@ -178,16 +177,15 @@ TEST(LightingSpecialCase, IndicesUnderEndlessHighlights) {
     s.light().attenuation = {1e-30f, 0, 0};
     LightingProgram program = plan_index_lighting({{100, 120, 50}, 10, 256}, s.c.lights, s.c.model, nullptr);
     for (const InstructionSet isa : available_isas())
-      EXPECT_EQ(test::light(program, s.points, isa)[1][0], 0)
-          << brightness;  // far below 0: no digits are left to mask
+      // Far below 0, where no fraction digits are left to mask.
+      EXPECT_EQ(test::light(program, s.points, isa)[1][0], 0) << brightness;
     program = plan_index_lighting({{100, 120, 200}, 10, 256}, s.c.lights, s.c.model, nullptr);
     for (const InstructionSet isa : available_isas())
       EXPECT_EQ(test::light(program, s.points, isa)[1][0], 200) << brightness;
   }
 }
-// What has an end is not cut: a normal as long as numbers go, under a light or on a material as weak as they
-// are.
-TEST(LightingSpecialCase, LongNormalsAndWeakColorsMakeUpForEachOther) {
+// Finite results are exact: the longest possible normal with the weakest light and material.
+TEST(LightingOverflow, LongNormalsTimesWeakColorsAreExact) {
   KnownColorCase s;
   s.light().ambient = s.light().specular = {0, 0, 0};
   s.light().diffuse = {1e-19f, 1e-19f, 1e-19f};
@@ -195,8 +193,8 @@ TEST(LightingSpecialCase, LongNormalsAndWeakColorsMakeUpForEachOther) {
   for (LightingPoint& p : s.points) p.normal = {0, 0, 0.25e38f};
   s.expect(kGlow + kBase + 0.25, kBase + 0.25);
 }
-// Numbers that overflow give some colour within 0..1, and the same one on every instruction set.
-TEST(LightingSpecialCase, OverflowStaysWithinRange) {
+// Overflow yields a colour within 0..1, identical on every instruction set.
+TEST(LightingOverflow, OverflowStaysWithinRange) {
   RandomLighting random(9);
   for (const float size : {1e-30f, 1e-20f, 1e15f, 1e20f, 1e30f, 3e38f}) {
     for (int round = 0; round < 50; ++round) {

@@ -1,5 +1,5 @@
-// What the tests of lighting hold kernels against: their scalar twin, bit by bit; the formula, in double; and
-// a surface whose colour is known by hand.
+// Expectations for the lighting kernels: the scalar twin bit by bit, the formula in double, and a surface
+// whose colour is computed by hand.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ inline double distance_to_formula(const LightingCase& c, const std::vector<Light
   return worst;
 }
 
-/// A point light at the eye and a surface before it that faces both.
+/// A point light at the eye, and a surface that faces it.
 struct KnownColorCase {
   LightingCase c;
   std::vector<LightingPoint> points = std::vector<LightingPoint>(16);
@@ -59,7 +59,7 @@ struct KnownColorCase {
     for (LightingPoint& p : points) p = {{0, 0, 1}, {0, 0, -2}, {1, 1, 1}};
   }
   EyeLight& light() { return c.lights[0]; }
-  // By hand: base, then what att and spot multiply.
+  // Computed by hand: the base colour, then the part multiplied by attenuation and spot.
   void expect(double red, double green) {
     for (const InstructionSet isa : available_isas()) {
       const Rgb color = test::light(c.program(), points, isa)[5];

@@ -1,4 +1,4 @@
-// What plan_lighting() leaves out, and what it must keep.
+// Terms that plan_lighting() elides, and terms that it must keep.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ struct Row {
   bool general = true, needs_position = true, needs_view = false;
 };
 
-TEST(Effects, LeaveOutWhatCannotMatter) {
+TEST(Effects, ElideTermsWithoutInfluence) {
   const auto directional = [](Scene& s) { s.light.directional = true, s.light.spot_cutoff = 180; };
   const std::vector<Row> rows = {
       {"everything", [](Scene&) {}, 1},
@@ -167,7 +167,7 @@ TEST(Effects, LeaveOutWhatCannotMatter) {
   }
 }
 
-TEST(Effects, FoldWhatIsConstant) {
+TEST(Effects, FoldConstants) {
   Scene s;
   s.light.directional = true;
   s.light.spot_cutoff = 180;
@@ -185,7 +185,7 @@ TEST(Effects, FoldWhatIsConstant) {
     EXPECT_NEAR(s.plan().terms[0].diffuse[k], 0.64 * s.light.diffuse[k] * s.material.diffuse[k], 1e-6);
 }
 
-// Whatever directions are as floats.
+// Must not depend on how directions round to float.
 TEST(Effects, DirectionalLightsShineInVeryNarrowCones) {
   std::mt19937 random(61);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -195,7 +195,7 @@ TEST(Effects, DirectionalLightsShineInVeryNarrowCones) {
     const double to[3] = {any(random), any(random), any(random)}, length = std::hypot(to[0], to[1], to[2]);
     const double aside[3] = {to[1], -to[0], 0}, aside_length = std::hypot(aside[0], aside[1]);
     for (const double degrees :
-         {0.0, 1e-4, 0.0099, 0.0101, 0.02}) {  // between the light's direction and its cone's
+         {0.0, 1e-4, 0.0099, 0.0101, 0.02}) {  // angle between the light's direction and its cone's axis
       const double angle = degrees * 3.141592653589793 / 180;
       for (std::size_t k = 0; k < 3; ++k) {
         s.light.position[k] = static_cast<float>(to[k] / length);
@@ -204,16 +204,17 @@ TEST(Effects, DirectionalLightsShineInVeryNarrowCones) {
       }
       s.light.spot_cutoff = 0.01f;
       EXPECT_EQ(s.plan().terms.size(), degrees < 0.01 ? 1u : 0u) << n << " " << degrees;
+      // Rounded differently.
       for (float& component : s.light.position)
-        component = std::nextafter(component, n % 2 == 0 ? 2.0f : 0.0f);  // rounded another way
+        component = std::nextafter(component, n % 2 == 0 ? 2.0f : 0.0f);
       s.light.spot_cutoff = 0;
       EXPECT_EQ(s.plan().terms.size(), degrees == 0 ? 1u : 0u) << n << " " << degrees;
     }
   }
 }
 
-// The engine's directions are unit vectors of floats: these are at their cones' very edges before they are
-// rounded, and do not go out.
+// The engine's directions are float unit vectors. These lie exactly on the edge of their cone before
+// rounding, and must stay lit.
 TEST(Effects, DirectionalLightsShineAtTheEdgesOfTheirCones) {
   Scene s;
   s.light.directional = true;
@@ -238,7 +239,7 @@ TEST(Effects, DirectionalLightsShineAtTheEdgesOfTheirCones) {
   EXPECT_GT(edges, 30);
 }
 
-TEST(Effects, TrackedColorsStandForTheMaterialsOwn) {
+TEST(Effects, TrackedColorsReplaceTheMaterialColors) {
   Scene s;
   s.tracked = {true, true, true, true};
   const LightingProgram all = s.plan();
@@ -254,8 +255,8 @@ TEST(Effects, TrackedColorsStandForTheMaterialsOwn) {
   EXPECT_EQ(none.terms[0].tracked_diffuse, kBlack);
 }
 
-// Where no light arrives, 0 times it is added: an infinity would make a NaN of that.
-TEST(Effects, ProductsBeyondFloatsAreTheLargest) {
+// Unlit points add 0 times the product: an infinity would become NaN.
+TEST(Effects, OverflowingProductsAreTheLargestFloat) {
   constexpr float kMost = std::numeric_limits<float>::max();
   Scene s;
   s.material.diffuse = s.material.specular = {1e30f, -1e30f, 0.5f};

@@ -1,4 +1,4 @@
-// Lighting where a term is at the end of its range: colours that are known by hand.
+// Lighting with a term at the end of its range: colours computed by hand.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,11 +11,11 @@ namespace tessera::test {
 using namespace detail;
 namespace {
 
-TEST(LightingSpecialCase, HeadOnEverythingIsSeen) {
+TEST(LightingSpecialCase, HeadOnShowsEveryTerm) {
   KnownColorCase().expect(kGlow + kBase + kAmbient + kDiffuse + kSpecular,
                           kBase + kAmbient + kDiffuse + kSpecular);
 }
-TEST(LightingSpecialCase, AttenuationWithoutAPositiveDenominatorIsAMillion) {
+TEST(LightingSpecialCase, AttenuationWithoutAPositiveDenominatorIsOneMillion) {
   for (const std::array<float, 3>& coefficients :
        {std::array<float, 3>{0, 0, 0}, {1, -1, 0}, {1, 0, -1}, {2, -1, 0}}) {
     KnownColorCase s;
@@ -25,7 +25,7 @@ TEST(LightingSpecialCase, AttenuationWithoutAPositiveDenominatorIsAMillion) {
     s.expect(kGlow + kBase + 0.2, kBase + 0.2);
   }
 }
-TEST(LightingSpecialCase, LightAtThePointGivesItsAmbientPartAlone) {
+TEST(LightingSpecialCase, LightAtThePointAddsItsAmbientPartOnly) {
   KnownColorCase s;
   s.light().position = {0, 0, -2};
   s.expect(kGlow + kBase + kAmbient, kBase + kAmbient);
@@ -34,7 +34,7 @@ TEST(LightingSpecialCase, LightAtThePointGivesItsAmbientPartAlone) {
   s.light().spot_cutoff = 90;  // V.D <= 0
   s.expect(kGlow + kBase, kBase);
 }
-TEST(LightingSpecialCase, ZeroNormalsSeeTheAmbientPartAlone) {
+TEST(LightingSpecialCase, ZeroNormalsReceiveTheAmbientPartOnly) {
   KnownColorCase s;
   for (LightingPoint& p : s.points) p.normal = {0, 0, 0};
   s.expect(kGlow + kBase + kAmbient, kBase + kAmbient);
@@ -43,7 +43,7 @@ TEST(LightingSpecialCase, ZeroNormalsSeeTheAmbientPartAlone) {
   s.c.material.shininess = 0;
   s.expect(kGlow + kBase + kAmbient, kBase + kAmbient);
 }
-TEST(LightingSpecialCase, SurfacesThatFaceAwayHaveNoHighlight) {
+TEST(LightingSpecialCase, BackFacingSurfacesHaveNoHighlight) {
   for (const float shininess : {0.0f, 1.0f, 10.0f}) {
     for (const bool phong : {false, true}) {
       KnownColorCase s;
@@ -51,7 +51,7 @@ TEST(LightingSpecialCase, SurfacesThatFaceAwayHaveNoHighlight) {
       s.c.model.phong_highlight = phong;
       for (LightingPoint& p : s.points) p.normal = {0, 0, -1};
       s.expect(kGlow + kBase + kAmbient, kBase + kAmbient);
-      s.c.negate_normal = true;  // a back face seen from behind
+      s.c.negate_normal = true;  // a visible back face
       s.expect(kGlow + kBase + kAmbient + kDiffuse + kSpecular, kBase + kAmbient + kDiffuse + kSpecular);
     }
   }
@@ -73,7 +73,7 @@ TEST(LightingSpecialCase, ViewerOnTheOtherSideHasNoHalfwayVector) {
     EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse + kSpecular,
                 2e-6);
 }
-TEST(LightingSpecialCase, ConesOfZeroNinetyAndAHundredAndEightyDegrees) {
+TEST(LightingSpecialCase, ConesOf0And90And180Degrees) {
   KnownColorCase s;
   s.light().spot_direction = {0, 0, -1};
   for (const float exponent : {0.0f, 1.0f, 16384.0f}) {
@@ -83,16 +83,16 @@ TEST(LightingSpecialCase, ConesOfZeroNinetyAndAHundredAndEightyDegrees) {
       for (const InstructionSet isa : available_isas())
         EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse + kSpecular,
                     2e-6)
-            << "in the axis, cutoff " << cutoff;
+            << "on the axis, cutoff " << cutoff;
     }
   }
-  // Beside the light: V.D = 0, outside every cone; 180 degrees is no cone.
+  // Next to the light: V.D = 0, outside every cone; 180 degrees is no cone.
   for (LightingPoint& p : s.points) p = {{-1, 0, 0}, {2, 0, 0}, {1, 1, 1}};
   for (const float cutoff : {0.0f, 90.0f}) {
     s.light().spot_cutoff = cutoff;
     for (const InstructionSet isa : available_isas())
       EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase, 2e-6)
-          << "beside the axis, cutoff " << cutoff;
+          << "off the axis, cutoff " << cutoff;
   }
   s.light().spot_cutoff = 180;
   s.light().spot_exponent = 0;
@@ -103,7 +103,7 @@ TEST(LightingSpecialCase, NegativeLightsDarkenAndTheSumIsClampedOnce) {
   KnownColorCase s;
   s.c.lights.push_back(s.light());
   for (std::size_t k = 0; k < 3; ++k) {
-    s.light().diffuse[k] = 4;  // far above 1 before the second takes some back
+    s.light().diffuse[k] = 4;  // far above 1, before the second light subtracts
     s.c.lights[1].diffuse[k] = -3.5f;
     s.c.lights[1].ambient[k] = s.c.lights[1].specular[k] = 0;
   }
@@ -112,8 +112,8 @@ TEST(LightingSpecialCase, NegativeLightsDarkenAndTheSumIsClampedOnce) {
   s.c.lights[1].diffuse = {-30, -30, -30};
   s.expect(0, 0);
 }
-// x^0 is 1 for every x: where R.E has no end, too.
-TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightOfAnyNumber) {
+// x^0 is 1 for every x, even if R.E is infinite.
+TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightForAnyBase) {
   for (const float size : {1.0f, 1e20f, 3e38f}) {
     KnownColorCase s;
     s.c.model.phong_highlight = true;
@@ -127,8 +127,8 @@ TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightOfAnyNumber) {
     expect_same_bits(s.c.program(), s.points);
   }
 }
-// Roots as high as the tenth make something of cosines that have next to nothing left.
-TEST(LightingSpecialCase, SmallExponentsKeepTheSmallestCosines) {
+// Small exponents, down to the tenth root, yield visible highlights for tiny cosines.
+TEST(LightingSpecialCase, SmallExponentsKeepTinyCosines) {
   KnownColorCase s;
   s.light().position = {0x1p-62f, 0, 1};  // S = (2^-63, 0, 1)
   s.c.renormalize = s.c.model.unit_normals = true;

@@ -1,5 +1,5 @@
-// The lighting kernels: the same bits as their scalar twin on every instruction set, and the specification's
-// formula.
+// Lighting kernels: bit-identical to their scalar twin on every instruction set, and close to the
+// specification's formula.
 #include "shading/lighting.h"
 
 #include <gtest/gtest.h>
@@ -25,9 +25,9 @@ int rounds(int normal) {
   return value != nullptr && *value != '\0' && *value != '0' ? normal * 30 : normal;
 }
 
-// Every combination by itself: kind of light x highlight x how that comes about x parts that are ambient or
-// tracked, each with every preparation of the normals.
-TEST(Lighting, OfOneLightHasTheBitsOfItsTwin) {
+// Every combination: kind of light x highlight x highlight formula x ambient or tracked parts, each with
+// every preparation of the normals.
+TEST(LightingKernels, OneLightMatchesTheScalarTwin) {
   RandomLighting random(1);
   std::set<std::tuple<LightKind, HighlightKind, bool, bool, bool, bool>> combinations;
   for (int kind = 0; kind < kLightKinds; ++kind) {
@@ -57,14 +57,14 @@ TEST(Lighting, OfOneLightHasTheBitsOfItsTwin) {
       }
     }
   }
-  // All highlights may be sharp. Squares are those of Blinn's whose S differs from point to point; ambient
-  // parts of directional lights are no part of theirs.
+  // All highlights may be sharp. Squared ones exist only for Blinn with S varying per point; ambient parts of
+  // directional lights are in no term.
   const int highlights = 2 * kHighlightKinds - 1, directional = highlights + 1, positional = highlights + 2;
   EXPECT_EQ(combinations.size(),
             static_cast<std::size_t>(directional * 2 + (kLightKinds - 1) * positional * 4))
-      << "some were never run";
+      << "some kernels never ran";
 }
-TEST(Lighting, OfManyLightsHasTheBitsOfItsTwin) {
+TEST(LightingKernels, ManyLightsMatchTheScalarTwin) {
   RandomLighting random(2);
   for (int round = 0; round < rounds(2000); ++round) {
     std::vector<LightingPoint> points(static_cast<std::size_t>(16 + 16 * (round % 8)));
@@ -73,8 +73,8 @@ TEST(Lighting, OfManyLightsHasTheBitsOfItsTwin) {
     if (HasFatalFailure()) return;
   }
 }
-// On both sides of the edge of cones that are wider and narrower than kNarrowCone.
-TEST(Lighting, OfNarrowConesHasTheBitsOfItsTwin) {
+// On both sides of the edge of cones wider and narrower than kNarrowCone.
+TEST(LightingKernels, NarrowConesMatchTheScalarTwin) {
   RandomLighting random(7);
   int inside = 0, outside = 0;
   for (int round = 0; round < rounds(200); ++round) {
@@ -106,7 +106,7 @@ TEST(Lighting, OfNarrowConesHasTheBitsOfItsTwin) {
 }
 
 // Indices: negative, wrapping, with and without highlights; programs of no, one and many lights.
-TEST(Lighting, OfIndicesHasTheBitsOfItsTwin) {
+TEST(LightingKernels, IndicesMatchTheScalarTwin) {
   RandomLighting random(5);
   int wrapped = 0, most = 0, between = 0;
   for (int round = 0; round < rounds(2000); ++round) {
@@ -138,10 +138,10 @@ TEST(Lighting, OfIndicesHasTheBitsOfItsTwin) {
   }
   EXPECT_TRUE(wrapped > 1000 && most > 1000 && between > 1000) << wrapped << " " << most << " " << between;
 }
-// Every kernel's sums, by the formula in double: what a grey material would have, through the last step. Of
-// sharp highlights, the 16 u for each one of the exponent that they may be off by (tests/numerics/README.md),
-// times what the index changes by with s.
-TEST(Lighting, OfIndicesIsThatOfTheFormula) {
+// Sums of every kernel against the formula in double for a grey material, through the final index step. Sharp
+// highlights may be off by 16 u per unit of the exponent (tests/numerics/README.md), times the derivative of
+// the index by s.
+TEST(LightingKernels, IndicesMatchTheFormula) {
   RandomLighting random(6);
   std::size_t compared = 0;
   const auto luminance = [](const Rgb& c) { return 0.30f * c[0] + 0.59f * c[1] + 0.11f * c[2]; };
@@ -149,11 +149,8 @@ TEST(Lighting, OfIndicesIsThatOfTheFormula) {
     LightingCase c = random.next();
     c.lights.resize(std::min<std::size_t>(c.lights.size(), 2));
     c.tracked = {};
-    c.material = {{0, 0, 0},
-                  {0.25f, 0, 0},
-                  {0, 0.25f, 0},
-                  {0.5f, 0.5f, 0},
-                  c.material.shininess};  // within 0..1, so that nothing is clamped
+    // Within 0..1, so that nothing is clamped.
+    c.material = {{0, 0, 0}, {0.25f, 0, 0}, {0, 0.25f, 0}, {0.5f, 0.5f, 0}, c.material.shininess};
     c.model.scene_ambient = {0, 0, 0};
     const IndexMaterial material{{3, 40, 90}, c.material.shininess, 256};
     LightingProgram program = plan_index_lighting(material, c.lights, c.model, nullptr);
@@ -167,7 +164,7 @@ TEST(Lighting, OfIndicesIsThatOfTheFormula) {
       l.diffuse = Rgb{1, 1, 1} * luminance(l.diffuse);
       l.specular = Rgb{1, 1, 1} * luminance(l.specular);
     }
-    LightingCase sizes = c;  // of highlights, where lights take some away
+    LightingCase sizes = c;  // magnitudes of the highlights: some lights subtract
     for (EyeLight& l : sizes.lights) l.specular = Rgb{1, 1, 1} * std::abs(l.specular[0]);
     for (std::size_t i = 0; i < points.size(); ++i) {
       bool smooth = true;
@@ -187,7 +184,7 @@ TEST(Lighting, OfIndicesIsThatOfTheFormula) {
   EXPECT_GT(compared, 50000u);
 }
 
-TEST(Lighting, IsWithinOneLevelOfTheFormula) {
+TEST(LightingKernels, IsWithinOneLevelOfTheFormula) {
   RandomLighting random(3);
   double worst = 0;
   std::size_t compared = 0, all = 0;
@@ -205,10 +202,10 @@ TEST(Lighting, IsWithinOneLevelOfTheFormula) {
   std::printf("[  figure  ] lighting, largest distance to the formula: %.3g (1/255 is 0.0039)\n", worst);
 }
 
-// 1 - 2^-24 to the power of 16384 is 0.999: what rounding takes from S.n or R.E counts so many times.
-// Normals, light and halfway vectors are of length 1 within 2^-23 or so each; the highlight is then off by a
-// few times 2^-23 of its exponent, until it is measured otherwise.
-TEST(Lighting, OfSharpHighlightsIsWithinAFewRoundingsOfTheFormula) {
+// 1 - 2^-24 to the power of 16384 is 0.999: rounding errors of S.n or R.E are multiplied by the exponent.
+// Normals, light and halfway vectors have length 1 within about 2^-23 each, so the highlight is off by a few
+// times 2^-23 times the exponent.
+TEST(LightingKernels, SharpHighlightsAreWithinAFewRoundingsOfTheFormula) {
   for (const float shininess : {128.0f, 1000.0f, 4096.0f, 16384.0f}) {
     RandomLighting random(4);
     double worst[2][2][2] = {};
@@ -223,7 +220,7 @@ TEST(Lighting, OfSharpHighlightsIsWithinAFewRoundingsOfTheFormula) {
       c.lights.push_back(random.light(point ? LightKind::point : LightKind::directional));
       c.lights[0].specular = {1, 0.7f, 0.4f};
       c.lights[0].spot_cutoff = 180;
-      // Normals about the halfway vector, so that highlights are seen at all.
+      // Normals around the halfway vector, so that highlights are visible.
       std::vector<LightingPoint> points(kBatchPoints);
       for (LightingPoint& p : points) {
         p = random.point();
@@ -237,7 +234,7 @@ TEST(Lighting, OfSharpHighlightsIsWithinAFewRoundingsOfTheFormula) {
         if (local)
           e = {-p.position[0] / std::sqrt(pp), -p.position[1] / std::sqrt(pp),
                -p.position[2] / std::sqrt(pp)};
-        // A viewer nearly opposite to the light would magnify the roundings of both in L + E.
+        // A viewer nearly opposite to the light would amplify the roundings of both in L + E.
         const bool opposite = l[0] * e[0] + l[1] * e[1] + l[2] * e[2] < -0.8 * std::sqrt(ll);
         for (std::size_t k = 0; k < 3; ++k) {
           p.normal[k] = opposite ? 0.0f

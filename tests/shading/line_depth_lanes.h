@@ -1,4 +1,4 @@
-// Depth keys of lines and points as the kernels find them.
+// Depth keys of lines and points as computed by the kernels.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,12 @@
 namespace tessera::test {
 using namespace detail;
 
-/// The key of each parameter: how far of the line from depth word z0 to z1 one has come.
+/// Depth keys at each parameter, the fraction of the way from depth z0 to z1.
 using LineKeys = std::vector<std::int32_t>(DepthFormat kind, std::uint32_t z0, std::uint32_t z1,
                                            const std::vector<double>& parameters);
 LineKeys* line_keys(InstructionSet isa);
 
-/// The key of a point with an offset (see LineDepth), and what a line from there to there has at its first
-/// vertex.
+/// Key of a point with an offset (see LineDepth), and the key of a zero-length line at its first vertex.
 struct KeyPair {
   std::int32_t point, line;
 };

@@ -1,5 +1,5 @@
-// Depth keys along lines against integers: where all products are exact, a key is the whole part of its
-// depth; and points' keys against lines'.
+// Depth keys along lines against integers: where all products are exact, a key is the integer part of its
+// depth; and keys of points against those of lines.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -17,11 +17,11 @@ namespace {
 
 struct Cases {
   int parameter_bits;      // parameters are multiples of 2^-bits
-  std::uint32_t farthest;  // depth words lie below it
+  std::uint32_t farthest;  // upper bound of the depth values
 };
 constexpr Cases kCases[] = {{28, 1u << 20}, {28, 4}, {18, 0xffffffffu}};
 
-TEST(LineDepth, IsTheWholePart) {
+TEST(LineDepth, IsTheIntegerPart) {
   std::mt19937 random(3);
   for (const DepthFormat kind : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32})
     for (const Cases& of : kCases)
@@ -31,7 +31,7 @@ TEST(LineDepth, IsTheWholePart) {
         std::vector<std::int32_t> expected;
         const std::int64_t one = std::int64_t{1} << of.parameter_bits, change = std::int64_t{z1} - z0;
         for (int i = 0; i < 16; ++i) {
-          // Half of them as near to where a level of 32 bits begins as they come.
+          // Half of the parameters are adjacent to a step between 32-bit levels.
           const std::int64_t level_at =
               change == 0 ? 0
                           : (2 * (static_cast<std::int64_t>(random()) % std::abs(change)) + 1) * one /
@@ -53,8 +53,8 @@ TEST(LineDepth, IsTheWholePart) {
       }
 }
 
-// At the ends of what a depth can be, with offsets within it, to its ends and far beyond.
-TEST(LineDepth, IsThatOfAPointAtItsFirstVertex) {
+// Depths at the ends of their range; offsets within the range, to its ends and far beyond.
+TEST(LineDepth, MatchesAPointAtItsFirstVertex) {
   std::mt19937 random(5);
   const auto word = [&] { return static_cast<std::uint32_t>(random()) >> random() % 32; };
   for (const DepthFormat kind :

@@ -1,5 +1,5 @@
-// The power function's kernels, which only translation units for many targets can see, as plain functions
-// over arrays.
+// Kernels of the power functions, which are only visible to multi-target translation units, as plain
+// functions over arrays.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@ namespace tessera::test {
 using namespace detail;
 
 enum class PowerFunction { power, log2, exp2, chosen };
-/// Of `count` arguments, a multiple of 16; the exponent matters to powers alone. `chosen`: in the way that
-/// lighting takes.
+/// Evaluates `count` arguments, a multiple of 16. The exponent matters to powers only; `chosen` is the method
+/// that lighting uses.
 using EvaluatePower = void(PowerFunction function, const float* arguments, float exponent, float* results,
                            std::size_t count);
 EvaluatePower* evaluate_power(InstructionSet isa);

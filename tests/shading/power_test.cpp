@@ -1,5 +1,4 @@
-// x^y, log2 and 2^x: the bits of their scalar twins on every instruction set, and how far they are from the
-// truth.
+// x^y, log2 and 2^x: bit-identical to their scalar twins on every instruction set, and their error.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -20,8 +19,8 @@ namespace {
 
 constexpr float kExponents[] = {0.5f, 1, 2, 20, 128, 1000, 16384};
 
-// Every exponent of a float, each with the ends and the middle of its range and many in between; and what is
-// no number.
+// Every exponent of a float, each with the ends and the middle of its range and many values in between;
+// infinity and NaN.
 std::vector<float> all_magnitudes() {
   std::vector<float> values;
   std::mt19937 random(1);
@@ -38,7 +37,7 @@ std::vector<float> all_magnitudes() {
   while (values.size() % 16 != 0) values.push_back(0);
   return values;
 }
-// What lighting asks for: cosines, most of them near 1.
+// Arguments of lighting: cosines, most of them near 1.
 std::vector<float> cosines() {
   std::vector<float> values;
   for (int i = 0; i < 200000; ++i) values.push_back(static_cast<float>(i) / 200000);
@@ -68,15 +67,15 @@ void expect_same_bits(PowerFunction function, const std::vector<float>& argument
   }
 }
 
-TEST(Power, HasTheBitsOfItsTwin) {
+TEST(Power, MatchesTheScalarTwin) {
   for (const float y : {0x1p-20f, 0.1f, 0.5f, 1.0f, 2.0f, 20.0f, 76.8f, 128.0f, 1000.0f, 16384.0f}) {
     expect_same_bits(PowerFunction::power, all_magnitudes(), y,
                      [y](float x) { return power_reference(x, y); });
     expect_same_bits(PowerFunction::power, cosines(), y, [y](float x) { return power_reference(x, y); });
   }
 }
-// Whole ones are products up to the largest, and not above it; what is between is not.
-TEST(Power, IsChosenAsItsTwinIs) {
+// Integer exponents up to the largest use products; larger and fractional ones do not.
+TEST(Power, MethodMatchesTheScalarTwin) {
   for (const float y :
        {0.0f, 0.5f, 1.0f, 2.0f, 3.0f, 25.0f, 25.5f, 31.0f, 63.0f, 64.0f, 64.5f, 65.0f, 1000.0f}) {
     expect_same_bits(PowerFunction::chosen, all_magnitudes(), y,
@@ -89,8 +88,8 @@ TEST(Power, IsChosenAsItsTwinIs) {
   EXPECT_EQ(integer_exponent(std::numeric_limits<float>::quiet_NaN()), 0);
   EXPECT_EQ(power_of_reference(0.75f, 3), 0.421875f);
 }
-// In exact products, of numbers with one digit; and no product on the way is subnormal.
-TEST(Power, OfWholeExponentsIsExactWhereDigitsAreFew) {
+// Products of one-digit numbers are exact, and no intermediate product is subnormal.
+TEST(Power, IntegerPowersOfShortNumbersAreExact) {
   for (int n = 1; n <= kMaxIntegerExponent; ++n) {
     for (const float tiny : {0x1p-149f, 0x1p-126f, exp2_reference(-126.1f / static_cast<float>(n))}) {
       const float least = integer_power_reference(tiny, n);
@@ -106,7 +105,7 @@ TEST(Power, OfWholeExponentsIsExactWhereDigitsAreFew) {
       EXPECT_EQ(integer_power_reference(x, n), 0.0f) << n;
   }
 }
-TEST(Power, Log2HasTheBitsOfItsTwin) {
+TEST(Power, Log2MatchesTheScalarTwin) {
   std::vector<float> arguments;
   for (const float x : all_magnitudes())
     if (std::isnormal(x) && x > 0) arguments.push_back(x);
@@ -120,7 +119,7 @@ TEST(Power, Log2HasTheBitsOfItsTwin) {
   std::printf("[  figure  ] log2, largest relative error: %.3Lg\n", worst);
   EXPECT_LE(worst, 9.2e-8L);
 }
-TEST(Power, Exp2HasTheBitsOfItsTwin) {
+TEST(Power, Exp2MatchesTheScalarTwin) {
   std::vector<float> arguments;
   for (int i = -126 * 512; i <= 127 * 512; ++i)
     arguments.push_back(static_cast<float>(i) / 512 + (i % 3 != 0 && i < 127 * 512 ? 0.0007f : 0));
@@ -138,19 +137,19 @@ TEST(Power, IsExactAtOneAndPowersOfTwo) {
   for (const float y : kExponents) EXPECT_EQ(power_reference(1, y), 1.0f);
   for (int e = -63; e <= 48; ++e) EXPECT_EQ(power_reference(std::ldexp(1.0f, e), 2), std::ldexp(1.0f, 2 * e));
 }
-TEST(Power, OfNothingPositiveIsZero) {
+TEST(Power, NonPositiveBasesYieldZero) {
   for (const float x :
        {0.0f, -0.0f, -1.0f, -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
     for (const float y : kExponents) EXPECT_EQ(power_reference(x, y), 0.0f);
 }
 
 // x^y = 2^p, p = y log2 x. log2 is off by at most 9.1e-8 of itself (measured above), and its product with y
-// by 2^-24 more: p is off by 1.5e-7 |p|, which is a relative error of 1.1e-7 |p| in the result, or up to 1.8
-// |p| units in the last place, on top of one or two from 2^p. For visible results |p| is at most 8, and
-// rarely is everything at its worst at once: what is promised of all powers is 15.6 and 228.2
-// (tests/numerics/README.md), what these exponents come to is held to 14 and 160. The absolute error peaks
-// where |p| 2^p does: at 1.1e-7 / (e ln 2) + 6e-8.
-TEST(Power, IsAsExactAsItSays) {
+// by 2^-24 more: p is off by 1.5e-7 |p|. That is a relative error of 1.1e-7 |p| in the result, or up to 1.8
+// |p| units in the last place, plus one or two from 2^p. For visible results |p| is at most 8, and the errors
+// rarely all reach their maximum at once. The bounds for all powers are 15.6 and 228.2
+// (tests/numerics/README.md); these exponents are held to 14 and 160. The absolute error peaks where |p| 2^p
+// does: at 1.1e-7 / (e ln 2) + 6e-8.
+TEST(Power, IsWithinItsErrorBounds) {
   for (const float y : kExponents) {
     double absolute = 0, visible = 0, any = 0;
     for (const float x : cosines()) {

@@ -1,5 +1,4 @@
-// Pixels of several samples: their colour is the mean of the samples' levels, whichever way the samples got
-// their colours.
+// Multisampled pixels: their colour is the mean of the samples' levels, on every pixel path.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -19,7 +18,7 @@ namespace {
 
 constexpr int kTile = 32;
 
-TEST(Samples, AreResolvedToTheMeanOfTheirLevels) {
+TEST(SampleResolve, IsTheMeanOfTheLevels) {
   RandomTriangles source(21, kTile);
   for (int bits = 1; bits <= 24; ++bits)
     for (const int alpha : {0, 8})
@@ -51,8 +50,8 @@ TEST(Samples, AreResolvedToTheMeanOfTheirLevels) {
       }
 }
 
-// The twin by hand: halves go up, and components do not run into each other.
-TEST(Samples, MeanRoundsHalvesUp) {
+// The scalar twin against results by hand: halves round up, and components do not carry into each other.
+TEST(SampleResolve, MeanRoundsHalvesUp) {
   const std::uint32_t words[8] = {0xff0000, 0xff0001, 0xff0101, 0xff01ff, 0, 0, 0, 0};
   EXPECT_EQ(resolve_reference(rgb_layout(24), words, 4),
             0xff0140u);  // green 2/4 -> 1, blue (1 + 1 + 255)/4 = 64.25
@@ -61,7 +60,7 @@ TEST(Samples, MeanRoundsHalvesUp) {
   EXPECT_EQ(resolve_reference(rgb_layout(1), greys, 4), 1u);
 }
 
-// How draws of interpolated colours go through a tile.
+// Shading modes of draws with interpolated colours within a tile.
 enum class Way { later, later_one_by_one, at_once, mixed, with_operations };
 constexpr Way kWays[] = {Way::later, Way::later_one_by_one, Way::at_once, Way::mixed, Way::with_operations};
 constexpr const char* kWayNames[] = {"later", "later, one by one", "at once",
@@ -69,8 +68,7 @@ constexpr const char* kWayNames[] = {"later", "later, one by one", "at once",
 
 constexpr std::uint32_t kTriangles = 51, kDraws = 3;
 
-// Three draws of random triangles, in perspective, behind and through each other, with colours of their
-// fronts and backs.
+// Three draws of random intersecting triangles under perspective, with front and back colours.
 constexpr std::int32_t kFarthest = std::numeric_limits<std::int32_t>::max();
 float unit_depth(std::uint32_t random) { return static_cast<float>(random >> 8) * 0x1p-24f; }
 
@@ -130,7 +128,7 @@ struct InterpolatedDraws {
 
 class SampledColors : public testing::TestWithParam<DepthFormat> {};
 
-TEST_P(SampledColors, AreTheSameWheneverTheyComeAbout) {
+TEST_P(SampledColors, DoNotDependOnWhenTheyAreShaded) {
   RandomTriangles source(22, kTile);
   const FragmentOps operations{};
   for (const int samples : {4, 8}) {

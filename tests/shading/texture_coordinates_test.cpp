@@ -1,4 +1,4 @@
-// Texture coordinates and levels of detail against equation 3.14 in double, from exact edges; the same bits
+// Texture coordinates and levels of detail against equation 3.14 in double, from exact edges; bit-identical
 // on every instruction set.
 #include <gtest/gtest.h>
 
@@ -23,10 +23,10 @@ struct Expected {
   double s, t, level_of_detail;
 };
 
-// s = N / W of two linear functions: the quotient rule.
+// s = N / W of two linear functions: quotient rule.
 Expected expected_at(const Triangle& triangle, const TriangleReference& exact, const double (&s)[3],
                      const double (&t)[3], double width, double height, int x, int y) {
-  double sum[3] = {}, of_s[3] = {}, of_t[3] = {};  // at the pixel, for one pixel to the right, one down
+  double sum[3] = {}, of_s[3] = {}, of_t[3] = {};  // at the pixel, one pixel to the right, one pixel down
   for (std::size_t k = 0; k < 3; ++k) {
     const EdgeReference& edge = exact.edge[k];
     const double parts[3] = {static_cast<double>(edge.at(x, y)), static_cast<double>(edge.dx),
@@ -102,7 +102,7 @@ TEST(TextureCoordinates, LevelsOfDetailAreWithinOneSixteenthOfEquation3_14) {
                 << name_of(isa);
             const double height = levels.level[0].height == 1 ? 0 : levels.level[0].height;
             const Expected expected = expected_at(triangle, exact, s, t, levels.level[0].width, height, x, y);
-            if (expected.level_of_detail < -20) return;  // no slope to speak of
+            if (expected.level_of_detail < -20) return;  // no measurable slope
             const double off = std::abs(0.5 * std::log2(double{squared[i]}) - expected.level_of_detail);
             ASSERT_LE(off, 1.0 / 16) << name_of(isa) << " " << x << " " << y << ", " << levels.level[0].width
                                      << "x" << levels.level[0].height << ", expected "
@@ -118,7 +118,7 @@ TEST(TextureCoordinates, LevelsOfDetailAreWithinOneSixteenthOfEquation3_14) {
               worst_coordinate);
 }
 
-TEST(TextureCoordinates, TheSameCoordinatesEverywhereHaveNoSlope) {
+TEST(TextureCoordinates, ConstantCoordinatesHaveNoSlope) {
   for_each_triangle(52, 200, [&](const Triangle& triangle, const Corner(&)[3], RandomTriangles&) {
     TextureLevels levels;
     levels.level[0].width = levels.level[0].height = 256;

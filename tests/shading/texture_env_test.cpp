@@ -1,4 +1,4 @@
-// Environments against OpenGL 1.5's table in double, for textures with and without alpha; the bits of their
+// Texture environments against OpenGL 1.5's table in double, with and without alpha; bit-identical to their
 // twin on every instruction set.
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ struct Rgba {
   double c[3], a;
 };
 
-// GL 1.5, table 3.22 and 3.23: f the fragment's, t the texture's, k the environment's colour.
+// GL 1.5, tables 3.22 and 3.23: f the fragment, t the texture, k the environment colour.
 Rgba by_the_table(TextureEnv function, bool has_alpha, const Rgba& f, const Rgba& t,
                   const std::array<float, 3>& k) {
   Rgba v = f;
@@ -31,7 +31,7 @@ Rgba by_the_table(TextureEnv function, bool has_alpha, const Rgba& f, const Rgba
   return v;
 }
 
-TEST(TextureEnv, IsTheTableAndHasTheBitsOfItsTwin) {
+TEST(TextureEnv, MatchesTheTableAndTheScalarTwin) {
   std::mt19937 random(3);
   const auto unit = [&] { return static_cast<float>(random() % 257) / 256.0f; };
   for (const auto function :

@@ -1,5 +1,5 @@
-// Texels against the filters' definitions in double [GL 2.1, 3.8.8, 3.8.9], on textures whose levels have
-// nothing to do with each other; the same bits on every instruction set.
+// Texels against the definitions of the filters in double [GL 2.1, 3.8.8, 3.8.9], on textures with unrelated
+// levels; bit-identical on every instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,7 +68,7 @@ struct TestTexture {
   }
 };
 
-// The index of a texel, wrapped as GL_TEXTURE_WRAP says, in whole numbers.
+// Texel index wrapped as by GL_TEXTURE_WRAP, in integers.
 std::int64_t wrapped_index(std::int64_t i, TextureWrap wrap, std::int64_t size) {
   const auto modulo = [](std::int64_t a, std::int64_t n) { return (a % n + n) % n; };
   if (wrap == TextureWrap::repeat) return modulo(i, size);
@@ -77,7 +77,7 @@ std::int64_t wrapped_index(std::int64_t i, TextureWrap wrap, std::int64_t size) 
   return there_and_back < size ? there_and_back : 2 * size - 1 - there_and_back;
 }
 
-// One component at one level, by way of unwrapped indices: another road than the kernel's.
+// One component at one level, through unwrapped indices, independently of the kernel.
 double level_component(const TestTexture& texture, int level, bool linear, double s, double t, int c) {
   const TextureLevel& l = texture.levels.level[level];
   const auto at = [&](std::int64_t i, std::int64_t j) {
@@ -112,7 +112,7 @@ double expected_component(const TestTexture& texture, double s, double t, double
          share * level_component(texture, d2, levels.min_linear, s, t, c);
 }
 
-// No nearest filter has to choose near a border between two texels.
+// Whether no nearest filter has to decide near a border between two texels.
 bool is_clear(const TestTexture& texture, double s, double t) {
   for (int level = 0; level <= texture.levels.last; ++level) {
     const auto is_near = [](double x) { return std::abs(x - std::round(x)) < 2e-4; };
@@ -135,7 +135,7 @@ void for_each_filter(const Check& check) {
             check(TestTexture(random, width, height, mag_linear, min, wrap_s, wrap_t), random);
 }
 
-TEST(TextureSampling, IsWhatTheFiltersAreByDefinition) {
+TEST(TextureSampling, MatchesTheFilterDefinitions) {
   double worst = 0;
   for_each_filter([&](const TestTexture& texture, std::mt19937& random) {
     const auto between = [&](double low, double high) {
@@ -144,7 +144,7 @@ TEST(TextureSampling, IsWhatTheFiltersAreByDefinition) {
     ShadingBatch batch{};
     float lambda[kBatchPoints];
     for (int i = 0; i < kBatchPoints; ++i) {
-      // Levels change within a block, or do not.
+      // Levels that vary within a block, and constant ones.
       lambda[i] = static_cast<float>(i < 32 ? between(-1.5, 10) : 1.7);
       float s, t;
       do s = static_cast<float>(between(-2.5, 3.5)), t = static_cast<float>(between(-2.5, 3.5));
@@ -179,8 +179,8 @@ TEST(TextureSampling, IsWhatTheFiltersAreByDefinition) {
   std::printf("[  figure  ] texels are off by at most %.3g levels\n", worst);
 }
 
-// A float says little of a place far away, but what it says is where the texels are taken from.
-TEST(TextureSampling, RepeatsExactlyHoweverFar) {
+// Far from the origin a float coordinate is coarse, but its exact value selects the texels.
+TEST(TextureSampling, RepeatsExactlyAtAnyDistance) {
   std::mt19937 random(7);
   for (const int width : {100, 1000, 1024, 3000}) {
     TestTexture texture(random, width, 1, true, Min::linear, TextureWrap::repeat, TextureWrap::repeat);
@@ -190,7 +190,7 @@ TEST(TextureSampling, RepeatsExactlyHoweverFar) {
     std::uniform_real_distribution<float> far(-4096, 4096);
     for (int round = 0; round < 20; ++round) {
       for (int i = 0; i < kBatchPoints; ++i) batch.field[kTextureS][i] = far(random);
-      // The largest before the first centre, the smallest before 0 and what rounds to the end.
+      // Before the first centre, at it, just below 0, just below 1 (rounds to the end), and 0.
       const float edges[] = {std::nextafter(0.5f / static_cast<float>(width), 0.0f),
                              0.5f / static_cast<float>(width), -1e-30f, std::nextafter(1.0f, 0.0f), 0.0f};
       std::ranges::copy(edges, batch.field[kTextureS]);
@@ -206,8 +206,8 @@ TEST(TextureSampling, RepeatsExactlyHoweverFar) {
   }
 }
 
-// GL 2.1, 3.8.8: d = ceil(lambda + 1/2) - 1, so half-way between two levels the larger one is the nearest.
-TEST(TextureSampling, HalfWayBetweenLevelsTheLargerIsNearest) {
+// GL 2.1, 3.8.8: d = ceil(lambda + 1/2) - 1, so halfway between two levels the larger one is the nearest.
+TEST(TextureSampling, HalfwayBetweenLevelsTheLargerIsNearest) {
   std::mt19937 random(6);
   const TestTexture texture(random, 64, 64, false, Min::nearest_nearest, TextureWrap::repeat,
                             TextureWrap::repeat);
@@ -224,9 +224,9 @@ TEST(TextureSampling, HalfWayBetweenLevelsTheLargerIsNearest) {
   }
 }
 
-// Whatever stands in lanes that nobody looks at: texels of the texture, the same on every instruction set,
-// and none from elsewhere.
-TEST(TextureSampling, HasTheSameBitsOnEveryInstructionSetWhateverComes) {
+// Unused lanes may hold any value: they still sample texels of the texture, identically on every instruction
+// set, and never read outside of it.
+TEST(TextureSampling, IsIdenticalOnEveryInstructionSetForAnyInput) {
   for_each_filter([&](const TestTexture& texture, std::mt19937& random) {
     ShadingBatch batch{};
     for (int i = 0; i < kBatchPoints; ++i) {
@@ -267,7 +267,7 @@ TEST(TextureSampling, HasTheSameBitsOnEveryInstructionSetWhateverComes) {
   });
 }
 
-// Every one: no division is done, and no float where a texel is all that is seen.
+// All 16-bit components: the kernel needs no division, and no float where only a texel is visible.
 TEST(TextureSampling, ComponentsAreDividedAndRoundedExactly) {
   for (const InstructionSet isa : available_isas())
     for (int first = 0; first <= 65280; first += 16) {
@@ -285,7 +285,7 @@ TEST(TextureSampling, ComponentsAreDividedAndRoundedExactly) {
     }
 }
 
-// A texture that is the same everywhere is exactly that under every filter, and 255 is exactly 1.
+// A uniform texture yields exactly its colour under every filter, and 255 is exactly 1.
 TEST(TextureSampling, OneColorStaysExact) {
   std::mt19937 random(9);
   for (const Min min : kMins) {

@@ -1,5 +1,5 @@
-// A pixel's colour does not depend on the way that it came about: at once or later, by the path of small
-// triangles or that of large ones, alone or among others, on whichever instruction set.
+// A pixel's colour does not depend on its path: immediate or deferred shading, the path of small or of large
+// triangles, alone or among others, on every instruction set.
 #include "shading/tile_renderer.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kTile = 64;
 
-// Triangles with depths, 1/w and attributes.
+// Triangles with depth, 1/w and attributes.
 struct Mesh {
   std::vector<WindowVertex> vertices;
   std::vector<float> attributes;
@@ -39,7 +39,7 @@ bool is_clockwise(const Triangle& v) {  // y goes down
   const auto [bx, by] = from_first(2);
   return ax * by - ay * bx > 0;
 }
-enum class Sides { both, one };  // of triangles, that are seen
+enum class Sides { both, one };  // visible sides of the triangles
 Mesh random_mesh(RandomTriangles& source, int triangles, int stride, DepthFormat kind, double low,
                  double high, Sides sides = Sides::both) {
   Mesh mesh;
@@ -69,7 +69,7 @@ TileDraw& add(TileHarness& stage, const Mesh& mesh, std::span<const std::uint32_
 }
 TileDraw& add(TileHarness& stage, const Mesh& mesh) { return add(stage, mesh, mesh.visible); }
 
-TEST(TileRenderer, InterpolatedColorsAreThoseOfTheTwin) {
+TEST(TileRenderer, InterpolatedColorsMatchTheScalarTwin) {
   for (const int bits : {3, 8, 16, 24}) {
     RandomTriangles source(static_cast<std::uint32_t>(41 + bits), kTile);
     TileHarness stage(kTile, kTile, kTile);
@@ -107,7 +107,7 @@ std::int32_t farthest_key(DepthFormat kind) {
                                                                   : 0xffffffffu >> (32 - depth_bits(kind)));
 }
 
-TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
+TEST(TileRenderer, ImmediateAndDeferredShadingAgree) {
   for (const DepthFormat kind : {DepthFormat::none, DepthFormat::unorm16, DepthFormat::unorm24,
                                  DepthFormat::unorm32, DepthFormat::float32}) {
     RandomTriangles source(42, kTile);
@@ -128,8 +128,8 @@ TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
           colors[way] = stage.colors();
           depths[way] = stage.depths();
         }
-        ASSERT_EQ(colors[1], colors[0]) << name_of(isa) << ": later";
-        ASSERT_EQ(colors[2], colors[0]) << name_of(isa) << ": gathered for each triangle";
+        ASSERT_EQ(colors[1], colors[0]) << name_of(isa) << ": deferred";
+        ASSERT_EQ(colors[2], colors[0]) << name_of(isa) << ": gathered per triangle";
         if (kind != DepthFormat::none) {
           ASSERT_EQ(depths[1], depths[0]);
         }
@@ -138,13 +138,13 @@ TEST(TileRenderer, ShadesTheSameAtOnceAndLater) {
   }
 }
 
-// Draws may have a colour for each side: what others of a group show does not matter.
-TEST(TileRenderer, TrianglesHaveTheColorsOfTheSideThatIsSeen) {
+// Draws may have one colour per side; the sides of other triangles in a group must not matter.
+TEST(TileRenderer, TrianglesHaveTheColorsOfTheirVisibleSide) {
   RandomTriangles source(49, kTile);
   TileHarness stage(kTile, kTile, kTile);
   for (int round = 0; round < (long_tests() ? 1000 : 60); ++round) {
     const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 6, DepthFormat::none, 0.5, 255.5);
-    std::vector<Facing> facing(mesh.vertices.size() / 3);  // of polygons that the triangles were cut from
+    std::vector<Facing> facing(mesh.vertices.size() / 3);  // of the polygons that the triangles were cut from
     for (Facing& side : facing) side = source.between(0, 1) == 0 ? Facing::front : Facing::back;
     const bool of_polygons = round % 3 == 0, front_is_clockwise = round % 2 == 0, deferred = round % 4 < 2;
     const auto shows_back = [&](std::uint32_t id) {
@@ -172,7 +172,7 @@ TEST(TileRenderer, TrianglesHaveTheColorsOfTheSideThatIsSeen) {
   }
 }
 
-TEST(TileRenderer, SmallTrianglesAreDrawnAsLargeOnesAre) {
+TEST(TileRenderer, SmallAndLargeTrianglePathsAgree) {
   RandomTriangles source(43, kTile);
   for (const bool deferred : {false, true}) {
     for (int round = 0; round < (long_tests() ? 3000 : 150); ++round) {
@@ -202,7 +202,7 @@ TEST(TileRenderer, SmallTrianglesAreDrawnAsLargeOnesAre) {
   }
 }
 
-TEST(TileRenderer, ConstantColorsStayConstantThroughInterpolation) {
+TEST(TileRenderer, ConstantColorsStayConstantUnderInterpolation) {
   RandomTriangles source(44, kTile);
   for (int round = 0; round < 200; ++round) {
     TileHarness stage(kTile, kTile, kTile);
@@ -211,7 +211,8 @@ TEST(TileRenderer, ConstantColorsStayConstantThroughInterpolation) {
                         g = static_cast<std::uint32_t>(source.between(0, 255)), b = 255;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
       mesh.attributes[3 * i] = static_cast<float>(r) + 0.5f;
-      mesh.attributes[3 * i + 1] = static_cast<float>(g);  // a hair less would be a level less
+      // An integral level; any smaller value stores the level below.
+      mesh.attributes[3 * i + 1] = static_cast<float>(g);
       mesh.attributes[3 * i + 2] = static_cast<float>(b) + 0.5f;
     }
     add(stage, mesh);
@@ -224,7 +225,7 @@ TEST(TileRenderer, ConstantColorsStayConstantThroughInterpolation) {
   }
 }
 
-// What a batch may hold where no triangle covers its points.
+// Values that a batch may hold at points outside all triangles.
 void fill_with_odd_values(ShadingBatch& batch, RandomTriangles& source) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   constexpr float kOdd[] = {
@@ -233,9 +234,9 @@ void fill_with_odd_values(ShadingBatch& batch, RandomTriangles& source) {
     for (float& value : field) value = kOdd[source.between(0, 6)];
 }
 
-// Lighting at each pixel gathers pixels of many triangles into batches; which ones share a batch, and what it
-// held before, must not matter.
-TEST(TileRenderer, LightsPixelsTheSameInEveryCompany) {
+// Per-pixel lighting gathers pixels of many triangles into batches. The other pixels of a batch, and its
+// previous contents, must not matter.
+TEST(TileRenderer, PixelLightingDoesNotDependOnTheBatch) {
   RandomTriangles source(45, kTile);
   RandomLighting lights(46);
   for (int round = 0; round < (long_tests() ? 1000 : 60); ++round) {
@@ -269,8 +270,8 @@ TEST(TileRenderer, LightsPixelsTheSameInEveryCompany) {
   }
 }
 
-// More triangles wait for their colours than a tile collects.
-TEST(TileRenderer, CollectingInPortionsChangesNothing) {
+// More visible triangles than a tile can defer.
+TEST(TileRenderer, DeferringInPortionsChangesNothing) {
   RandomTriangles source(47, kTile);
   Mesh mesh =
       random_mesh(source, static_cast<int>(2 * kMaxVisibleTriangles) + 100, 3, DepthFormat::none, 0.5, 255.5);
@@ -293,9 +294,9 @@ PixelRect random_window(RandomTriangles& source) {
   return {x, y, source.between(x + 1, kTile), source.between(y + 1, kTile)};
 }
 
-// Mixes by alpha have kernels of their own where there is no other operation: for full blocks in a row, for
-// others, and for single pixels. A test that always passes makes them go the way that knows all operations.
-TEST(TileRenderer, MixesByAlphaAreThoseOfTheGeneralWay) {
+// Alpha blending without other fragment operations has its own kernels: for full blocks in a row, for other
+// blocks, and for single pixels. An alpha test that always passes selects the generic path instead.
+TEST(TileRenderer, AlphaBlendingMatchesTheGenericPath) {
   RandomTriangles source(48, kTile);
   FragmentOps mix;
   set_dither(mix, 1, kTile);
@@ -336,8 +337,8 @@ TEST(TileRenderer, MixesByAlphaAreThoseOfTheGeneralWay) {
     }
 }
 
-// Where nothing is masked, full blocks are stored as they are; else they are mixed with what was there.
-TEST(TileRenderer, MasksChooseBitsOfWhatIsDrawnWithoutThem) {
+// Without a mask full blocks are stored directly; with one they are merged with the stored bits.
+TEST(TileRenderer, MasksSelectBitsOfTheUnmaskedResult) {
   constexpr std::uint32_t kBackground = 0x123456;
   RandomTriangles source(49, kTile);
   for (int round = 0; round < (long_tests() ? 3000 : 150); ++round) {

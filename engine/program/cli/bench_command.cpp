@@ -12,23 +12,23 @@ namespace tessera::program::cli {
 
 void exec_bench(const std::vector<std::string>& arguments) {
   namespace fs = std::filesystem;
-  std::error_code no_program;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", no_program).parent_path();
-  if (no_program)
-    throw Error("/proc/self/exe cannot be read, beside which tessera-bench is: " + no_program.message());
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  if (error) throw Error("cannot read /proc/self/exe, which locates tessera-bench: " + error.message());
   std::vector<std::string> words{"tessera-bench"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  for (const fs::path& place :
+  for (const fs::path& program :
        {folder / words.front(), folder.parent_path() / "libexec" / "tessera" / words.front()}) {
-    ::execv(place.c_str(), pointers.data());
-    if (errno != ENOENT) throw Error(place.string() + " cannot be started: " + std::strerror(errno));
+    ::execv(program.c_str(), pointers.data());
+    if (errno != ENOENT) throw Error("cannot start \"" + program.string() + "\": " + std::strerror(errno));
   }
   throw Error(
-      "found no tessera-bench beside this program or in ../libexec/tessera, which measures: builds of the "
-      "program make it, and the package tessera holds it");
+      "found no tessera-bench next to this program or in ../libexec/tessera; it is built with the program "
+      "and "
+      "part of the package tessera");
 }
 
 }  // namespace tessera::program::cli

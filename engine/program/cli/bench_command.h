@@ -1,4 +1,4 @@
-// `tessera bench`: a program of its own, so that who renders does not carry what measures.
+// `tessera bench`: runs the separate program tessera-bench, which keeps the benchmarks out of this one.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace tessera::program::cli {
 
-/// Becomes that program. Returns only by throwing Error, where there is none beside this one or in
-/// ../libexec/tessera.
+/// Replaces this process by tessera-bench, from the folder of this program or ../libexec/tessera.
+/// @throws Error if it cannot be started
 [[noreturn]] void exec_bench(const std::vector<std::string>& arguments);
 
 }  // namespace tessera::program::cli

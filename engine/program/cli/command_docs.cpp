@@ -6,15 +6,15 @@
 namespace tessera::program::cli {
 namespace {
 
-// "[=text|json]": only with a sign of equality, and not needed.
-bool is_optional(const OptionDoc& option) { return option.value.starts_with("[="); }
+// "[=text|json]": the value is optional and must be attached by "=".
+bool has_optional_value(const OptionDoc& option) { return option.value.starts_with("[="); }
 
-// The values of "flat|gouraud|phong", or nothing.
+// Returns the choices of a value such as "flat|gouraud|phong"; empty for any other value.
 std::vector<std::string> choices(const OptionDoc& option) {
   std::vector<std::string> list;
   if (option.value.find('|') == std::string::npos || option.value.find(' ') != std::string::npos) return list;
   std::string values = option.value;
-  if (is_optional(option)) values = values.substr(2, values.size() - 3);
+  if (has_optional_value(option)) values = values.substr(2, values.size() - 3);
   std::istringstream stream(values);
   for (std::string choice; std::getline(stream, choice, '|');) list.push_back(choice);
   return list;
@@ -37,11 +37,12 @@ std::vector<std::string> command_names(const std::vector<CommandDoc>& commands) 
   return names;
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
-    text.replace(at, what.size(), by);
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
   return text;
 }
+
 std::string in_single_quotes(const std::string& text) { return "'" + replaced(text, "'", "'\\''") + "'"; }
 
 std::string bash_script(const std::vector<CommandDoc>& commands) {
@@ -57,7 +58,7 @@ std::string bash_script(const std::vector<CommandDoc>& commands) {
     for (const OptionDoc& option : command.options) {
       all.insert(all.end(), option.names.begin(), option.names.end());
       const std::vector<std::string> values = choices(option);
-      if (!values.empty() && !is_optional(option))
+      if (!values.empty() && !has_optional_value(option))
         text += "        " + joined(option.names, "|") + ") COMPREPLY=($(compgen -W \"" +
                 joined(values, " ") + "\" -- \"$word\")); return;;\n";
       else if (takes_file(option))
@@ -92,7 +93,7 @@ std::string zsh_script(const std::vector<CommandDoc>& commands) {
       for (const std::string& option_name : option.names) {
         const std::vector<std::string> values = choices(option);
         std::string spec = option_name + "[" + escaped(option.text) + "]";
-        if (!values.empty() && is_optional(option))
+        if (!values.empty() && has_optional_value(option))
           spec = option_name + "=-[" + escaped(option.text) + "]::value:(" + joined(values, " ") + ")";
         else if (!values.empty()) spec += ":value:(" + joined(values, " ") + ")";
         else if (takes_file(option)) spec += ":file:_files";
@@ -119,8 +120,8 @@ std::string fish_script(const std::vector<CommandDoc>& commands) {
             option_name.starts_with("--") ? " -l " + option_name.substr(2) : " -s " + option_name.substr(1);
       const std::vector<std::string> values = choices(option);
       if (!values.empty())
-        text +=
-            std::string(is_optional(option) ? " -f" : " -x") + " -a " + in_single_quotes(joined(values, " "));
+        text += std::string(has_optional_value(option) ? " -f" : " -x") + " -a " +
+                in_single_quotes(joined(values, " "));
       else if (!option.value.empty()) text += takes_file(option) ? " -r -F" : " -x";
       text += " -d " + in_single_quotes(option.text) + "\n";
     }
@@ -131,7 +132,8 @@ std::string fish_script(const std::vector<CommandDoc>& commands) {
   return text;
 }
 
-// A leading dot or quote would be a request; a hyphen a typographic one.
+// Escapes text for roff: a line must not start with a dot or a quote, which mark requests, and "-" must not
+// become a typographic hyphen.
 std::string roff(const std::string& text) {
   std::string escaped = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
   if (escaped.starts_with('.') || escaped.starts_with('\'')) escaped.insert(0, "\\&");
@@ -141,9 +143,9 @@ std::string roff(const std::string& text) {
 }  // namespace
 
 std::string completion_script(const std::string& shell, const std::vector<CommandDoc>& commands) {
-  return shell == "bash"  ? bash_script(commands)
-         : shell == "zsh" ? zsh_script(commands)
-                          : fish_script(commands);
+  if (shell == "bash") return bash_script(commands);
+  if (shell == "zsh") return zsh_script(commands);
+  return fish_script(commands);
 }
 
 std::string man_page(const std::vector<CommandDoc>& commands, const std::string& version) {
@@ -169,10 +171,11 @@ std::string man_page(const std::vector<CommandDoc>& commands, const std::string&
     if (!command.examples.empty()) text += ".PP\n.nf\n" + roff(command.examples) + "\n.fi\n";
   }
   text +=
-      ".SH ENVIRONMENT\n.TP\n.B TESSERA_THREADS\nthreads, as for \\-\\-threads\n.TP\n.B NO_COLOR\npictures "
-      "in the terminal are made of letters\n"
-      ".SH EXIT STATUS\n0, 1 it failed, 2 it was called wrongly, 3 a picture differs from its reference or "
-      "the self\\-test found something wrong, 130 it was interrupted\n";
+      ".SH ENVIRONMENT\n.TP\n.B TESSERA_THREADS\ndefault of \\-\\-threads\n.TP\n.B NO_COLOR\nif set and not "
+      "empty, "
+      "pictures in the terminal consist of letters\n"
+      ".SH EXIT STATUS\n0 success, 1 failure, 2 wrong usage, 3 the picture differs from its reference or the "
+      "self\\-test failed, 130 interrupted\n";
   return text;
 }
 

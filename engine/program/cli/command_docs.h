@@ -1,4 +1,4 @@
-// The program's commands and options as data, and what is made of them for shells and for man.
+// Generates shell completions and the manual page from a description of commands and options.
 #pragma once
 
 #include <string>
@@ -12,15 +12,17 @@ struct OptionDoc {
   std::string text;
 };
 struct CommandDoc {
-  std::string name, text, examples;  ///< name empty: the program itself
+  std::string name;  ///< empty: the program itself
+  std::string text;
+  std::string examples;
   std::vector<OptionDoc> options;
-  OptionDoc operand;  ///< without names; value empty: it takes none
+  OptionDoc operand;  ///< without names; value empty: no operand
 };
 
-/// A completion script for "bash", "zsh" or "fish".
+/// Returns a completion script for "bash", "zsh" or "fish".
 std::string completion_script(const std::string& shell, const std::vector<CommandDoc>& commands);
 
-/// tessera(1), in the language of man.
+/// Returns the manual page tessera(1) as roff.
 std::string man_page(const std::vector<CommandDoc>& commands, const std::string& version);
 
 }  // namespace tessera::program::cli

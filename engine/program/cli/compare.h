@@ -1,4 +1,4 @@
-// Is a picture that of a file?
+// Compares a picture with a reference.
 #pragma once
 
 #include <string>
@@ -8,11 +8,12 @@
 namespace tessera::program::cli {
 
 struct Difference {
-  int largest = 0;         ///< of all components, in levels of 255
-  std::size_t pixels = 0;  ///< with a component further apart than the threshold
-  double share = 0;        ///< of all pixels
+  int largest = 0;         ///< largest difference of a component, in levels of 255
+  std::size_t pixels = 0;  ///< pixels with a component that differs by more than the threshold
+  double share = 0;        ///< the same as a fraction of all pixels
 };
 
+/// Compares red, green and blue.
 /// @throws Error for pictures of different sizes
 Difference compare(const Picture& picture, const Picture& reference, int threshold);
 

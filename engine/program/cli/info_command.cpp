@@ -16,9 +16,10 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string count_of(std::vector<std::string> endings(), const char* what) {
+// The number of formats, or the reason why the module is not available.
+std::string format_count(std::vector<std::string> extensions()) {
   try {
-    return std::to_string(endings().size()) + " endings " + what;
+    return std::to_string(extensions().size()) + " file name extensions";
   } catch (const Error& missing) {
     return missing.what();
   }
@@ -28,20 +29,20 @@ std::string count_of(std::vector<std::string> endings(), const char* what) {
 
 std::string info_text() {
   std::string text = machine_text();
-  text += "image module       " + count_of(module_extensions, "written") + "\n";
-  return text + "import module      " + count_of(model_extensions, "read") + "\n";
+  text += "image module       " + format_count(module_extensions) + "\n";
+  return text + "import module      " + format_count(model_extensions) + "\n";
 }
 
 std::string formats_text() {
   std::string text = "scenes    .json\nmodels    .obj\n";
   try {
-    text += "          by the import module: " + listed(model_extensions()) + "\n";
+    text += "          with the import module: " + listed(model_extensions()) + "\n";
   } catch (const Error& missing) {
     text += "          " + std::string(missing.what()) + "\n";
   }
   text += "pictures  " + listed(builtin_extensions()) + "\n";
   try {
-    text += "          by the image module: " + listed(module_extensions()) + "\n";
+    text += "          with the image module: " + listed(module_extensions()) + "\n";
   } catch (const Error& missing) {
     text += "          " + std::string(missing.what()) + "\n";
   }

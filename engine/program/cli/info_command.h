@@ -1,4 +1,4 @@
-// `tessera info` and `tessera formats`: what this machine and this build can do.
+// `tessera info` and `tessera formats`: describe the machine and the supported file formats.
 #pragma once
 
 #include <string>

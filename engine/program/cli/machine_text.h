@@ -1,11 +1,12 @@
-// What a picture might depend on, and must not; and what the time that it takes depends on.
+// Describes the build and the machine.
 #pragma once
 
 #include <string>
 
 namespace tessera::program::cli {
 
-/// Version, compiler, processor, cores, caches and instruction sets: a line each, of a name and what it is.
+/// Returns one line "name   value" for each of version, compiler, processor, cores, caches and instruction
+/// sets.
 std::string machine_text();
 
 }  // namespace tessera::program::cli

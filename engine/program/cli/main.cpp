@@ -1,7 +1,5 @@
-// The program tessera. Exit codes: 0, 1 it failed, 2 it was called wrongly, 3 a picture differs from its
-// reference or the self-test found something wrong, 130 it was interrupted; then one line on stderr says why.
-#include <algorithm>
-#include <charconv>
+// The program tessera. Exit codes: 0 success, 1 failure, 2 wrong usage, 3 the picture differs from its
+// reference or the self-test failed, 130 interrupted. A line on stderr gives the reason.
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -16,80 +14,31 @@
 
 #include "engine/program/cli/bench_command.h"
 #include "engine/program/cli/command_docs.h"
+#include "engine/program/cli/command_options.h"
 #include "engine/program/cli/info_command.h"
-#include "engine/program/cli/parse_overrides.h"
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/render_command.h"
 #include "engine/program/cli/selftest_command.h"
 #include "engine/program/cli/standard_output.h"
+#include "engine/program/cli/validators.h"
 #include "engine/program/scene/suggest.h"
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera::program::cli {
 namespace {
 
-constexpr int kFailed = 1, kBadUsage = 2;
-
-constexpr const char* kExamples = R"(Examples:
-  tessera render                                  the built-in teapot, as tessera.png
-  tessera render scene.json -o picture.png        a scene
-  tessera render truck.glb --size 1280x720        a model, as truck.png
-  tessera render --palette ega16 -o ega.png       16 colours, nearest entry
-  tessera render --planes planes --stats          also every bitplane, and what the frame took
-  tessera render scene.json --frames 50 -o 'frame_{frame}.png'     an animation
-  tessera render -o term                          the picture in the terminal
-  tessera render scene.json --compare right.png --threshold 2      exits with 3 where it differs)";
+constexpr int kFailed = 1;
+constexpr int kBadUsage = 2;
 
 constexpr const char* kProgramExamples = R"(Examples:
   tessera render                                  the built-in teapot, as tessera.png
-  tessera render --help                           all that it can render, and how
-  tessera info                                    this machine, and what is used of it
-  tessera selftest                                is what it renders right?
+  tessera render --help                           options of render
+  tessera info                                    this machine and its instruction sets
+  tessera selftest                                check that this machine renders correctly
   tessera completion bash > /etc/bash_completion.d/tessera)";
 
-constexpr const char* kSelftestExamples = R"(Examples:
-  tessera selftest
-  tessera selftest --hashes > here.txt            on one machine
-  tessera selftest --expect here.txt              on another)";
-
-using Names = std::vector<std::string_view>;
-
-CLI::Validator one_of(const Names& names) {
-  const auto check = [names](std::string& value) -> std::string {
-    if (std::find(names.begin(), names.end(), value) != names.end()) return "";
-    std::string list;
-    for (const std::string_view name : names) list += (list.empty() ? "" : ", ") + std::string(name);
-    return "found \"" + value + "\", expected one of " + list + did_you_mean(value, names);
-  };
-  return {check, ""};
-}
-
-// Transforms what was typed, which CLI11 would take for octal where it begins with 0.
-CLI::Validator integer_from(int min_value, int max_value) {
-  const auto check = [min_value, max_value](std::string& value) -> std::string {
-    int number = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error == std::errc() && end == value.data() + value.size() && number >= min_value &&
-        number <= max_value) {
-      value = std::to_string(number);
-      return "";
-    }
-    return "found \"" + value + "\", expected an integer from " + std::to_string(min_value) + " to " +
-           std::to_string(max_value);
-  };
-  return {check, ""};
-}
-
-// An option that is given without a name is no option that is left out.
-CLI::Validator not_empty(const std::string& expected) {
-  const auto check = [expected](std::string& value) -> std::string {
-    return value.empty() ? "found \"\", expected " + expected : "";
-  };
-  return {check, ""};
-}
-
-// For CLI11 "--name=" has no value, and takes the next argument.
-std::string empty_value(std::span<char* const> arguments) {
+// Refuses "--name=": CLI11 would take the next argument as its value. Returns the error; empty: none.
+std::string error_of_empty_value(std::span<char* const> arguments) {
   for (const std::string_view argument : arguments) {
     if (argument == "--") break;
     if (argument.starts_with("--") && argument.ends_with('='))
@@ -98,180 +47,7 @@ std::string empty_value(std::span<char* const> arguments) {
   return "";
 }
 
-CLI::App* add_render(CLI::App& program, RenderRequest& request) {
-  CLI::App* command = program.add_subcommand("render",
-                                             "Render a scene (.json) or a model (.obj, .gltf, .glb, .ply, "
-                                             ".stl, ...); without one, the built-in teapot");
-  command->footer(kExamples);
-  command->option_defaults()->take_last();
-  command->add_option("input", request.input, "scene or model")
-      ->option_text("[SCENE.json | MODEL]")
-      ->check(not_empty("a scene's or a model's name"));
-  command
-      ->add_option("-o,--output", request.output.path,
-                   "picture to write: .png, .ppm, .pgm, .pfm, .raw or another format of OpenImageIO, {frame} "
-                   "in its name is the number; - is the "
-                   "standard output (PPM), term the terminal; default: the input's name with .png, here, in "
-                   "place of nothing but a PNG that says that Tessera made it")
-      ->option_text("FILE")
-      ->check(not_empty("FILE's name"));
-  command
-      ->add_option("--compression", request.output.compression,
-                   "of PNG files: 0 (none) .. 9 (smallest); default: 3")
-      ->option_text("N")
-      ->transform(integer_from(0, 9));
-  command
-      ->add_option_function<std::string>(
-          "--size",
-          [&request](const std::string& text) {
-            if (!parse_size(text, request.overrides))
-              throw CLI::ValidationError("--size", "found \"" + text +
-                                                       "\", expected WIDTHxHEIGHT, each 1 to " +
-                                                       std::to_string(kMaxFrameBufferSize));
-          },
-          "size of the picture, in place of the scene's")
-      ->option_text("WIDTHxHEIGHT");
-  command
-      ->add_option_function<std::string>(
-          "--shading",
-          [&request](const std::string& name) {
-            request.overrides.shading = name == "flat"      ? Shading::flat
-                                        : name == "gouraud" ? Shading::gouraud
-                                                            : Shading::phong;
-          },
-          "shading of every draw")
-      ->option_text("flat|gouraud|phong")
-      ->check(one_of({"flat", "gouraud", "phong"}));
-  command->add_option("--color-bits", request.overrides.color_bits, "colour planes: 1 .. 24")
-      ->option_text("N")
-      ->transform(integer_from(1, 24));
-  command->add_option("--palette", request.overrides.palette, "palette; the colour buffer then holds indices")
-      ->option_text("bw|gray|ega16|vga256|web216")
-      ->check(one_of({"bw", "gray", "ega16", "vga256", "web216"}));
-  command
-      ->add_option("--planes", request.planes_folder,
-                   "folder for every plane of colour, depth, stencil and accumulation as color_00.pbm, ...; "
-                   "set bits are PBM's 1")
-      ->option_text("DIR")
-      ->check(not_empty("DIR's name"));
-  command
-      ->add_option_function<std::string>(
-          "--camera",
-          [&request](const std::string& text) {
-            if (!parse_camera(text, request.overrides))
-              throw CLI::ValidationError(
-                  "--camera",
-                  "found \"" + text +
-                      "\", expected EX,EY,EZ,TX,TY,TZ[,FOVY]: the eye, what it looks at, degrees");
-          },
-          "camera for the whole frame, in place of the scene's or the model's")
-      ->option_text("EX,EY,EZ,TX,TY,TZ[,FOVY]");
-  command
-      ->add_option_function<std::string>(
-          "--light",
-          [&request](const std::string& text) {
-            if (!parse_light(text, request.overrides))
-              throw CLI::ValidationError(
-                  "--light",
-                  "found \"" + text + "\", expected X,Y,Z[,W]: a position, or with W = 0 a direction");
-          },
-          "white light for the whole frame, in place of the scene's; may be given more than once")
-      ->option_text("X,Y,Z[,W]")
-      ->trigger_on_parse();  // for each of them
-  command
-      ->add_option("--frames", request.frames,
-                   "pictures of an animation, t = 0 .. 1; {frame} in names is the number")
-      ->option_text("N")
-      ->transform(integer_from(1, 1000000));
-  command->add_option("--repeat", request.repeat, "render each picture N times; --stats tells the median")
-      ->option_text("N")
-      ->transform(integer_from(1, 1000000));
-  command
-      ->add_option("--compare", request.reference,
-                   "picture that the last frame should be; exits with 3 where it is not")
-      ->option_text("FILE")
-      ->check(not_empty("FILE's name"));
-  command->add_option("--threshold", request.threshold, "levels of 255 that --compare lets pass; default: 0")
-      ->option_text("N")
-      ->transform(integer_from(0, 255));
-  command->add_option("--threads", request.options.threads, "threads; default: TESSERA_THREADS, or all cores")
-      ->option_text("N")
-      ->transform(integer_from(1, 1024));
-  command
-      ->add_option("--tile-size", request.options.tile_size,
-                   "pixels of a tile's side; default: chosen by the frame")
-      ->option_text("32|64|128")
-      ->check(one_of({"32", "64", "128"}));
-  command
-      ->add_option_function<std::string>(
-          "--isa",
-          [&request](const std::string& name) {
-            request.options.instruction_set = name == "scalar" ? InstructionSet::scalar
-                                              : name == "avx2" ? InstructionSet::avx2
-                                                               : InstructionSet::avx512;
-          },
-          "instruction set; default: the best that this machine has")
-      ->option_text("scalar|avx2|avx512")
-      ->check(one_of({"scalar", "avx2", "avx512"}));
-  command->add_flag("--explain", request.explain,
-                    "list for each draw the effects that run or are skipped, and why");
-  command
-      ->add_flag("--stats{text}", request.stats_name,
-                 "say what the frame took: for people on stderr, or with =json as JSON on stdout")
-      ->option_text("[=text|json]")
-      ->check(one_of({"text", "json"}));
-  command
-      ->add_option_function<std::string>(
-          "--progress",
-          [&request](const std::string& when) {
-            request.progress = when == "always"  ? ShowProgress::always
-                               : when == "never" ? ShowProgress::never
-                                                 : ShowProgress::automatic;
-          },
-          "show progress on stderr; default: auto, on a terminal after a second")
-      ->option_text("auto|always|never")
-      ->check(one_of({"auto", "always", "never"}));
-  command
-      ->add_option_function<std::string>(
-          "--log",
-          [&request](const std::string& level) {
-            request.log = level == "debug"  ? LogLevel::debug
-                          : level == "info" ? LogLevel::info
-                                            : LogLevel::warning;
-          },
-          "print what the library says, on stderr")
-      ->option_text("debug|info|warning")
-      ->check(one_of({"debug", "info", "warning"}));
-  return command;
-}
-
-CLI::App* add_selftest(CLI::App& program, SelftestRequest& request) {
-  CLI::App* command = program.add_subcommand(
-      "selftest",
-      "Render scenes and exact cases in every way that this machine has, and say whether all of it is right");
-  command->footer(kSelftestExamples);
-  command->option_defaults()->take_last();
-  command
-      ->add_option("--expect", request.expected,
-                   "hashes that the scenes should come to, from another machine or version; default: those "
-                   "of this version")
-      ->option_text("FILE")
-      ->check(not_empty("FILE's name"));
-  command->add_flag("--hashes", request.hashes,
-                    "print what the scenes come to here, as --expect reads it, and nothing else");
-  command
-      ->add_option("--threads", request.threads, "threads beside one; default: TESSERA_THREADS, or all cores")
-      ->option_text("N")
-      ->transform(integer_from(1, 1024));
-  command->parse_complete_callback([&request] {
-    if (request.hashes && !request.expected.empty())
-      throw CLI::ValidationError("--hashes",
-                                 "it prints what scenes come to and compares nothing, --expect compares");
-  });
-  return command;
-}
-
-// Names of the long options and of the subcommands, for suggestions.
+// Long option names, for suggestions.
 Names names_of(const CLI::App& app) {
   Names names;
   for (const CLI::Option* option : app.get_options())
@@ -305,13 +81,13 @@ int usage_error(const std::string& message, const CLI::App& program) {
   return kBadUsage;
 }
 
-/// Threads that no option chose are those of TESSERA_THREADS. Returns what is wrong with it; empty: nothing.
-std::string threads_of_environment(int& threads) {
+/// Sets `threads` from TESSERA_THREADS unless an option did. Returns the error; empty: none.
+std::string read_threads_variable(int& threads) {
   const char* const value = std::getenv("TESSERA_THREADS");
   if (value == nullptr || *value == '\0' || threads != 0) return "";
   std::string text = value;
   if (std::string wrong = integer_from(1, 1024)(text); !wrong.empty()) return wrong;
-  CLI::detail::lexical_cast(text, threads);  // decimal now, as options are
+  CLI::detail::lexical_cast(text, threads);  // integer_from() made it decimal
   return "";
 }
 
@@ -342,14 +118,15 @@ int run(int argument_count, char** arguments) {
   program.require_subcommand(0, 1);
   RenderRequest request;
   CLI::App* render_command = add_render(program, request);
-  CLI::App* info = program.add_subcommand("info", "Say what this machine is and what is used of it");
+  CLI::App* info = program.add_subcommand("info", "Describe this machine and what Tessera uses of it");
   SelftestRequest selftest_request;
   CLI::App* selftest_command = add_selftest(program, selftest_request);
-  CLI::App* bench = program.add_subcommand(
-      "bench", "Measure what frames cost on this machine; tessera bench --help has its options");
+  CLI::App* bench =
+      program.add_subcommand("bench", "Run benchmarks on this machine; see tessera bench --help");
   bench->set_help_flag();
   bench->prefix_command();
-  CLI::App* formats = program.add_subcommand("formats", "List the formats of scenes, models and pictures");
+  CLI::App* formats =
+      program.add_subcommand("formats", "List the file formats of scenes, models and pictures");
   CLI::App* completion = program.add_subcommand("completion", "Print a completion script for a shell");
   std::string shell;
   completion->add_option("shell", shell, "bash, zsh or fish")
@@ -367,23 +144,23 @@ int run(int argument_count, char** arguments) {
       "/usr/share/zsh/vendor-completions/_tessera\n"
       "  tessera completion fish > ~/.config/fish/completions/tessera.fish");
   man->footer("Examples:\n  tessera man | man -l -");
-  if (const std::string wrong = empty_value({arguments, static_cast<std::size_t>(argument_count)});
+  if (const std::string wrong = error_of_empty_value({arguments, static_cast<std::size_t>(argument_count)});
       !wrong.empty())
     return usage_error(wrong, program);
   try {
     program.parse(argument_count, arguments);
-  } catch (const CLI::Success& asked) {
-    return program.exit(asked);  // --help and --version
+  } catch (const CLI::Success& request_for_text) {
+    return program.exit(request_for_text);  // --help and --version
   } catch (const CLI::ExtrasError&) {
     return usage_error(unexpected_argument(program), program);
   } catch (const CLI::ParseError& error) {
     return usage_error(error.what(), program);
   }
-  if (int* const threads = render_command->parsed()     ? &request.options.threads
-                           : selftest_command->parsed() ? &selftest_request.threads
-                                                        : nullptr;
-      threads != nullptr)
-    if (const std::string wrong = threads_of_environment(*threads); !wrong.empty())
+  int* threads = nullptr;
+  if (render_command->parsed()) threads = &request.options.threads;
+  if (selftest_command->parsed()) threads = &selftest_request.threads;
+  if (threads != nullptr)
+    if (const std::string wrong = read_threads_variable(*threads); !wrong.empty())
       return usage_error("TESSERA_THREADS: " + wrong, program);
   if (selftest_command->parsed()) return selftest(selftest_request);
   if (bench->parsed()) exec_bench(bench->remaining());
@@ -409,7 +186,7 @@ int main(int argument_count, char** arguments) {
     if (code == 0) tessera::program::cli::require_stdout_written();
     return code;
   } catch (const tessera::Cancelled&) {
-    std::cerr << "tessera: interrupted; finished pictures are whole\n";
+    std::cerr << "tessera: interrupted; finished pictures are complete\n";
     return tessera::program::cli::kInterrupted;
   } catch (const std::bad_alloc&) {
     std::cerr << "tessera: error: out of memory\n";

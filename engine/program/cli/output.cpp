@@ -23,7 +23,7 @@ int terminal_columns() {
 
 using Mean = std::array<int, 3>;
 
-// Mean colour of a box of pixels.
+// Mean colour of the pixels from (x0, y0) up to, but not including, (x1, y1).
 Mean mean_of(const Picture& picture, int x0, int y0, int x1, int y1) {
   std::array<long long, 3> sum{};
   for (int y = y0; y < y1; ++y)
@@ -65,7 +65,7 @@ void write_output(const Picture& picture, const std::string& path, int compressi
 }
 
 std::string terminal_text(const Picture& picture, int columns, bool colored) {
-  // A cell is two pixels high, and about twice as high as wide.
+  // A character cell is about twice as high as wide and shows two pixels.
   const int width = std::clamp(columns, 1, picture.width);
   const int rows =
       std::max(1, static_cast<int>((static_cast<long long>(picture.height) * width + picture.width) /
@@ -75,14 +75,16 @@ std::string terminal_text(const Picture& picture, int columns, bool colored) {
     const auto edge = [](int i, int n, int pixels) {
       return static_cast<int>(static_cast<long long>(i) * pixels / n);
     };
-    const int x0 = edge(column, width, picture.width), y0 = edge(half_row, 2 * rows, picture.height);
+    const int x0 = edge(column, width, picture.width);
+    const int y0 = edge(half_row, 2 * rows, picture.height);
     return mean_of(picture, x0, y0, std::max(x0 + 1, edge(column + 1, width, picture.width)),
                    std::max(y0 + 1, edge(half_row + 1, 2 * rows, picture.height)));
   };
   std::string text;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < width; ++column) {
-      const Mean upper = mean(column, 2 * row), lower = mean(column, 2 * row + 1);
+      const Mean upper = mean(column, 2 * row);
+      const Mean lower = mean(column, 2 * row + 1);
       if (colored) {
         text += color_code("38", upper) + color_code("48", lower) + "\xe2\x96\x80";  // upper half block
       } else {

@@ -1,4 +1,4 @@
-// Where pictures go: files, standard output, the terminal.
+// Destinations of pictures: files, standard output, the terminal.
 #pragma once
 
 #include <string>
@@ -8,22 +8,23 @@
 namespace tessera::program::cli {
 
 struct OutputRequest {
-  std::string
-      path;  ///< a file, perhaps with {frame} in its name; "-": standard output, as PPM; "term": the terminal
-  int compression = -1;  ///< of PNG, 0 .. 9; -1: the module's default
+  /// A file, with {frame} in its name for animations; "-": standard output, as PPM; "term": the terminal.
+  std::string path;
+  int compression = kDefaultCompression;  ///< of PNG, 0 .. 9
 };
 
-/// The standard output, or the terminal.
+/// Returns whether `path` is the standard output or the terminal.
 bool is_stream(const std::string& path);
 
-/// A file's name with {frame} replaced by the number, of as many digits as the last frame has, four at least.
+/// Replaces {frame} in a file name by the frame's number, padded to the digits of the last frame's number, at
+/// least 4.
 std::string frame_path(const std::string& path, int frame, int frames);
 
 /// @throws Error
 void write_output(const Picture& picture, const std::string& path, int compression);
 
-/// The picture as lines of half blocks in 24-bit colour, at most `columns` wide; without colour as letters of
-/// rising density.
+/// Returns the picture as lines of half blocks in 24-bit colour, at most `columns` wide; without colour, as
+/// characters of increasing density.
 std::string terminal_text(const Picture& picture, int columns, bool colored);
 
 }  // namespace tessera::program::cli

@@ -8,8 +8,8 @@
 namespace tessera::program::cli {
 namespace {
 
-// Numbers with commas between: at least `least`, at most `most` of them.
-std::vector<double> numbers_in(const std::string& text, std::size_t least, std::size_t most) {
+// Parses comma-separated numbers. Returns nothing if the text is malformed or their count is out of range.
+std::vector<double> parse_numbers(const std::string& text, std::size_t min_count, std::size_t max_count) {
   std::vector<double> numbers;
   std::istringstream stream(text);
   for (std::string part; std::getline(stream, part, ',');) {
@@ -19,7 +19,7 @@ std::vector<double> numbers_in(const std::string& text, std::size_t least, std::
     numbers.push_back(number);
   }
   if (text.ends_with(',')) return {};
-  return numbers.size() >= least && numbers.size() <= most ? numbers : std::vector<double>{};
+  return numbers.size() >= min_count && numbers.size() <= max_count ? numbers : std::vector<double>{};
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ bool parse_size(const std::string& text, SceneOverrides& overrides) {
 }
 
 bool parse_camera(const std::string& text, SceneOverrides& overrides) {
-  const std::vector<double> n = numbers_in(text, 6, 7);
+  const std::vector<double> n = parse_numbers(text, 6, 7);
   if (n.empty()) return false;
   const double distance = std::hypot(n[0] - n[3], n[1] - n[4], n[2] - n[5]);
   Lens lens;
@@ -53,7 +53,7 @@ bool parse_camera(const std::string& text, SceneOverrides& overrides) {
 }
 
 bool parse_light(const std::string& text, SceneOverrides& overrides) {
-  const std::vector<double> n = numbers_in(text, 3, 4);
+  const std::vector<double> n = parse_numbers(text, 3, 4);
   if (n.empty()) return false;
   overrides.lights.push_back(
       Light{.position = {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2]),

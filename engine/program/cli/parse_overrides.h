@@ -1,4 +1,4 @@
-// Options that stand in place of what a scene says.
+// Parses options that override values of a scene.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace tessera::program::cli {
 
-// Each is false, and the overrides are not to be used, for a text of another form.
+// Each returns false for malformed text; the overrides must not be used then.
 
 /// "640x480"
 bool parse_size(const std::string& text, SceneOverrides& overrides);
-/// "EX,EY,EZ,TX,TY,TZ" or with a vertical angle in degrees after it: the eye and what it looks at.
+/// "EX,EY,EZ,TX,TY,TZ[,FOVY]": eye, target, and vertical angle of view in degrees.
 bool parse_camera(const std::string& text, SceneOverrides& overrides);
-/// "X,Y,Z" or "X,Y,Z,W": adds a white light.
+/// "X,Y,Z[,W]": adds a white light.
 bool parse_light(const std::string& text, SceneOverrides& overrides);
 
 }  // namespace tessera::program::cli

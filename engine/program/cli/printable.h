@@ -1,4 +1,4 @@
-// Words of files on their way to a terminal.
+// Makes text from files safe for the terminal.
 #pragma once
 
 #include <string>
@@ -6,8 +6,7 @@
 
 namespace tessera::program::cli {
 
-/// One line without control characters, whatever names and contents of files brought in: those stand as
-/// \\x1b.
+/// Escapes control characters as \\x1b, so that names and contents of files stay on one line.
 inline std::string printable(std::string_view text) {
   constexpr char kDigits[] = "0123456789abcdef";
   std::string line;

@@ -9,9 +9,10 @@
 namespace tessera::program::cli {
 namespace {
 
-std::atomic<bool> interrupted = false;  // any thread asks
+std::atomic<bool> interrupted = false;  // set by the signal handler, read by any thread
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+// The second Ctrl-C has the default effect: it ends the process.
 void interrupt(int signal) {
   interrupted = true;
   std::signal(signal, SIG_DFL);
@@ -33,7 +34,7 @@ Progress::Progress(ShowProgress show)
       last_(start_) {}
 Progress::~Progress() { clear(); }
 
-void Progress::show(double done, const std::string& what) {
+void Progress::show(double done, const std::string& label) {
   if (!enabled_) return;
   const auto now = std::chrono::steady_clock::now();
   constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
@@ -42,12 +43,12 @@ void Progress::show(double done, const std::string& what) {
   shown_ = true;
   constexpr int kWidth = 30;
   const int filled = std::clamp(static_cast<int>(done * kWidth), 0, kWidth);
-  const double seconds = std::chrono::duration<double>(now - start_).count(),
-               left = done > 0 ? seconds / done - seconds : 0;
-  const std::string bar(static_cast<std::size_t>(filled), '#'),
-      rest(static_cast<std::size_t>(kWidth - filled), '.');
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double left = done > 0 ? seconds / done - seconds : 0;
+  const std::string bar(static_cast<std::size_t>(filled), '#');
+  const std::string rest(static_cast<std::size_t>(kWidth - filled), '.');
   std::fprintf(stderr, "\r[%s%s] %3d %%  %s  %.0f s left \x1b[K", bar.c_str(), rest.c_str(),
-               static_cast<int>(100 * done), what.c_str(), left);
+               static_cast<int>(100 * done), label.c_str(), left);
   std::fflush(stderr);
 }
 

@@ -1,4 +1,4 @@
-// Progress on the terminal for what takes longer than a second, and Ctrl-C.
+// A progress bar on the terminal, and Ctrl-C.
 #pragma once
 
 #include <atomic>
@@ -9,24 +9,26 @@ namespace tessera::program::cli {
 
 enum class ShowProgress { automatic, always, never };
 
-/// A line on stderr that is redrawn, with the time left; gone at the end.
+/// A progress line on stderr with the remaining time. `automatic` shows it after one second, on a terminal
+/// only.
 class Progress {
  public:
   explicit Progress(ShowProgress show);
   ~Progress();
-  /// `done` of all frames, 0 .. 1. By one thread at a time.
-  void show(double done, const std::string& what);
-  /// Takes the line away, before something else is printed.
+  /// Shows the fraction `done`, 0 .. 1. Call from one thread at a time.
+  void show(double done, const std::string& label);
+  /// Erases the line, so that other text can be printed.
   void clear();
 
  private:
-  bool enabled_, shown_ = false;
+  bool enabled_;
+  bool shown_ = false;
   std::chrono::steady_clock::duration wait_;
-  std::chrono::steady_clock::time_point start_, last_;
+  std::chrono::steady_clock::time_point start_;
+  std::chrono::steady_clock::time_point last_;
 };
 
-/// Whether Ctrl-C was pressed since the program began, if nobody above chose to ignore it. A second one ends
-/// the program at once.
+/// Catches Ctrl-C, unless the parent process set it to be ignored. A second Ctrl-C ends the program at once.
 class Interrupt {
  public:
   Interrupt();

@@ -1,4 +1,4 @@
-// `tessera render`: a scene or a model becomes a picture, or many.
+// `tessera render`: renders a scene or a model to one picture or to an animation.
 #pragma once
 
 #include <optional>
@@ -14,25 +14,27 @@ namespace tessera::program::cli {
 
 struct RenderRequest {
   std::string input;          ///< a scene or a model; empty: the built-in scene
-  OutputRequest output;       ///< path empty: the input's name with .png, in the current folder
+  OutputRequest output;       ///< path empty: INPUT.render.png in the current folder
   std::string planes_folder;  ///< empty: planes are not written
   SceneOverrides overrides;
   RendererOptions options;
-  int frames = 1;  ///< pictures of an animation
-  int repeat = 1;  ///< how often each is rendered
+  int frames = 1;  ///< pictures of the animation
+  int repeat = 1;  ///< renderings of each picture
   bool explain = false;
-  std::string stats_name;  ///< as it was typed
+  std::string stats_name;  ///< the value of --stats as typed
   StatsFormat stats = StatsFormat::none;
-  std::string reference;  ///< a picture to compare the last one with; empty: none
-  int threshold = 0;      ///< levels of 255
+  std::string reference;  ///< picture to compare the last frame with; empty: none
+  int threshold = 0;      ///< tolerated difference, in levels of 255
   ShowProgress progress = ShowProgress::automatic;
   std::optional<LogLevel> log;
 };
 
-inline constexpr int kDiffers = 3, kInterrupted = 130;  ///< exit codes
+/// Exit codes.
+inline constexpr int kDiffers = 3;
+inline constexpr int kInterrupted = 130;
 
-/// Prints explanations and JSON on stdout; warnings, numbers for people and the log on stderr. Returns the
-/// exit code.
+/// Writes explanations and JSON to stdout; warnings, readable statistics and the log to stderr.
+/// @return the exit code
 /// @throws Error
 int render(RenderRequest request);
 

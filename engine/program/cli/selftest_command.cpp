@@ -10,7 +10,7 @@
 #include "engine/program/cli/machine_text.h"
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/progress.h"
-#include "engine/program/cli/selftest_oracles.h"
+#include "engine/program/cli/selftest_checks.h"
 #include "engine/program/cli/selftest_scenes.h"
 #include "engine/program/scene/picture_hashes.h"
 #include "engine/program/scene/scene.h"
@@ -20,12 +20,11 @@
 namespace tessera::program::cli {
 namespace {
 
-/// A scene, and where it is not what it should be.
 struct SceneReport {
-  std::string about;
+  std::string description;
   Scene scene;
   PictureHash expected;
-  std::optional<Fingerprint> found;  ///< by the first configuration
+  std::optional<Fingerprint> found;  ///< of the first configuration
   std::size_t failed_configurations = 0;
   std::string first_failure;
 };
@@ -34,30 +33,28 @@ std::string count(std::size_t number, const char* what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
-// Colours and depths: as much as a row of a terminal holds.
+// The hashes of colour and depth; all four do not fit a row of a terminal.
 std::string short_text(const PictureHash& hash) { return to_text(hash).substr(0, 33); }
 
-// One row of the tables.
-std::string row(const std::string& what, const std::string& found, bool good, const char* otherwise) {
+std::string table_row(const std::string& name, const std::string& found, bool passed) {
   char text[256];
-  std::snprintf(text, sizeof text, "%-29s  %-45s  %s\n", what.c_str(), found.c_str(),
-                good ? "ok" : otherwise);
+  std::snprintf(text, sizeof text, "%-29s  %-45s  %s\n", name.c_str(), found.c_str(), passed ? "ok" : "FAIL");
   return text;
 }
 
-std::string wrong_text(std::size_t wrong, std::size_t all, const std::string& first) {
-  return std::to_string(wrong) + " of " + count(all, "rendering") +
-         " are wrong; the first: " + printable(first) + "\n";
+std::string failure_text(std::size_t failed, std::size_t all, const std::string& first) {
+  return std::to_string(failed) + " of " + count(all, "rendering") +
+         " failed; the first: " + printable(first) + "\n";
 }
 
 std::vector<SceneReport> scenes_with(const PictureHashes& hashes, const std::string& file) {
   std::vector<SceneReport> scenes;
-  for (const SelftestScene& each : kSelftestScenes) {
-    const auto expected = hashes.find(each.name);
+  for (const SelftestScene& scene : kSelftestScenes) {
+    const auto expected = hashes.find(scene.name);
     if (expected == hashes.end())
-      throw Error(file + ": there is no hash of the scene \"" + std::string(each.name) + "\"");
-    scenes.push_back({.about = std::string(each.about),
-                      .scene = parse_scene(each.json, std::string(each.name)),
+      throw Error(file + ": the hashes of scene \"" + std::string(scene.name) + "\" are missing");
+    scenes.push_back({.description = std::string(scene.description),
+                      .scene = parse_scene(scene.json, std::string(scene.name)),
                       .expected = expected->second,
                       .found = {},
                       .first_failure = {}});
@@ -65,7 +62,7 @@ std::vector<SceneReport> scenes_with(const PictureHashes& hashes, const std::str
   return scenes;
 }
 
-Fingerprint rendered(const Scene& scene, Renderer& renderer) {
+Fingerprint render_fingerprint(const Scene& scene, Renderer& renderer) {
   FrameBuffer buffer(scene.framebuffer);
   Frame frame(buffer);
   record(scene, frame);
@@ -73,33 +70,35 @@ Fingerprint rendered(const Scene& scene, Renderer& renderer) {
   return fingerprint(buffer);
 }
 
-/// What is wrong with a fingerprint; empty: nothing. The list has no hashes of planes: they have to be as
-/// they were by the first configuration.
+/// Describes how a fingerprint differs from the expected one; empty: it does not. The lists hold no hashes of
+/// planes, which must match those of the first configuration.
 std::string difference(const Fingerprint& f, const SceneReport& scene) {
   const PictureHash hash = picture_hash(f);
   if (hash != scene.expected)
-    return "colours, depths, stencil and accumulation come to " + to_text(hash) + ", expected " +
+    return "the hashes of colour, depth, stencil and accumulation are " + to_text(hash) + ", expected " +
            to_text(scene.expected);
-  return f == scene.found ? "" : "planes are not what they were by the first configuration";
+  return f == scene.found ? "" : "the planes differ from those of the first configuration";
 }
 
 void render_with(const RendererOptions& configuration, Renderer& renderer, SceneReport& scene) {
-  std::string wrong;
+  std::string failure;
   try {
-    const Fingerprint f = rendered(scene.scene, renderer);
+    const Fingerprint f = render_fingerprint(scene.scene, renderer);
     if (!scene.found) scene.found = f;
-    wrong = difference(f, scene);
+    failure = difference(f, scene);
   } catch (const Error& error) {
-    wrong = error.what();
+    failure = error.what();
   }
-  if (!wrong.empty() && scene.failed_configurations++ == 0)
-    scene.first_failure = wrong + ", by " + to_text(configuration);
+  if (!failure.empty() && scene.failed_configurations++ == 0)
+    scene.first_failure = failure + ", by " + to_text(configuration);
 }
 
-/// How many of a kind are right.
 struct Tally {
-  std::size_t right = 0, all = 0;
-  std::string text(const char* kind) const { return std::to_string(right) + " of " + count(all, kind); }
+  std::size_t passed = 0;
+  std::size_t all = 0;
+
+  bool all_passed() const { return passed == all; }
+  std::string text(const char* kind) const { return std::to_string(passed) + " of " + count(all, kind); }
 };
 
 Tally run_scenes(std::vector<SceneReport>& scenes, const Configurations& configurations) {
@@ -111,37 +110,38 @@ Tally run_scenes(std::vector<SceneReport>& scenes, const Configurations& configu
   }
   progress.clear();
   Tally tally{.all = scenes.size()};
-  for (const SceneReport& each : scenes) {
-    const bool right = each.failed_configurations == 0;
-    tally.right += right ? 1 : 0;
-    std::cout << row(each.scene.name, each.found ? short_text(picture_hash(*each.found)) : "", right,
-                     "DIFFERS");
-    if (!right)
-      std::cout << "  " << each.about << ": "
-                << wrong_text(each.failed_configurations, configurations.size(), each.first_failure);
+  for (const SceneReport& report : scenes) {
+    const bool passed = report.failed_configurations == 0;
+    tally.passed += passed ? 1 : 0;
+    std::cout << table_row(report.scene.name, report.found ? short_text(picture_hash(*report.found)) : "",
+                           passed);
+    if (!passed)
+      std::cout << "  " << report.description << ": "
+                << failure_text(report.failed_configurations, configurations.size(), report.first_failure);
   }
   return tally;
 }
 
-Tally run_oracles(const Configurations& configurations) {
+Tally run_checks(const Configurations& configurations) {
   Tally tally;
   for (const auto& check : {check_coverage, check_powers, check_levels}) {
-    const OracleReport report = check(configurations);
-    const bool right = report.failed_configurations == 0;
+    const CheckReport report = check(configurations);
+    const bool passed = report.failed_configurations == 0;
     ++tally.all;
-    tally.right += right ? 1 : 0;
-    std::cout << row(report.oracle, report.measured, right, "WRONG");
-    if (!right)
+    tally.passed += passed ? 1 : 0;
+    std::cout << table_row(report.name, report.measured, passed);
+    if (!passed)
       std::cout << "  "
-                << wrong_text(report.failed_configurations, configurations.size(), report.first_failure);
+                << failure_text(report.failed_configurations, configurations.size(), report.first_failure);
   }
   return tally;
 }
 
 void print_hashes(const std::vector<SceneReport>& scenes) {
   Renderer renderer;
-  for (const SceneReport& each : scenes)
-    std::cout << each.scene.name << " " << to_text(picture_hash(rendered(each.scene, renderer))) << "\n";
+  for (const SceneReport& report : scenes)
+    std::cout << report.scene.name << " " << to_text(picture_hash(render_fingerprint(report.scene, renderer)))
+              << "\n";
 }
 
 PictureHashes expected_hashes(const std::string& file) {
@@ -166,24 +166,23 @@ int selftest(const SelftestRequest& request) {
   std::optional<ThreadLimit> more_threads_than_cores;
   if (threads > available_cores()) more_threads_than_cores.emplace(threads);
   const Configurations configurations = all_configurations(threads);
-  std::cout << machine_text() << "each scene         " << configurations.size() << " times: by each set, "
+  std::cout << machine_text() << "configurations     " << configurations.size() << ": each instruction set, "
             << (threads == 1 ? "" : "1 and ") << count(static_cast<std::size_t>(threads), "thread")
-            << ", tiles of 32, 64 and 128, shaded late and at once\n\n"
+            << ", tiles of 32, 64 and 128, deferred and immediate shading\n\n"
             << std::flush;
-  const Tally right_scenes = run_scenes(scenes, configurations);
+  const Tally scene_tally = run_scenes(scenes, configurations);
   std::cout << "\n" << std::flush;
-  const Tally right_oracles = run_oracles(few_configurations(threads));
+  const Tally check_tally = run_checks(few_configurations(threads));
 
-  const bool good = right_scenes.right == right_scenes.all && right_oracles.right == right_oracles.all;
-  const std::string verdict =
-      right_scenes.text("scene") + " and " + right_oracles.text("oracle") + " are right";
+  const bool passed = scene_tally.all_passed() && check_tally.all_passed();
+  const std::string summary = scene_tally.text("scene") + ", " + check_tally.text("exact check");
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.1f s",
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  std::cout << "\nverdict            " << (good ? "all is well: " : "NOT WELL: ") << verdict << ", in "
-            << seconds << "\n";
-  if (good) return 0;
-  std::cerr << "tessera: error: the self-test failed: " << verdict << "\n";
+  std::cout << "\nresult             " << (passed ? "PASS: " : "FAIL: ") << summary << ", in " << seconds
+            << "\n";
+  if (passed) return 0;
+  std::cerr << "tessera: error: the self-test failed: " << summary << " passed\n";
   return kSelftestFailed;
 }
 

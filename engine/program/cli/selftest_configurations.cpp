@@ -28,7 +28,7 @@ std::string to_text(const RendererOptions& configuration) {
   return std::string(name(configuration.instruction_set)) + ", " + std::to_string(configuration.threads) +
          (configuration.threads == 1 ? " thread" : " threads") + ", tiles of " +
          std::to_string(configuration.tile_size) +
-         (configuration.debug.defer_shading ? "" : ", shaded at once");
+         (configuration.debug.defer_shading ? "" : ", immediate shading");
 }
 
 }  // namespace tessera::program::cli

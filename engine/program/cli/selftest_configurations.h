@@ -1,4 +1,4 @@
-// The configurations in which the self-test renders the same thing.
+// The renderer configurations that the self-test compares.
 #pragma once
 
 #include <string>
@@ -10,12 +10,13 @@ namespace tessera::program::cli {
 
 using Configurations = std::vector<RendererOptions>;
 
-/// Every instruction set of this machine, 1 and `threads` threads, every tile size, shaded late and at once.
+/// Returns all combinations of the machine's instruction sets, 1 and `threads` threads, every tile size,
+/// deferred and immediate shading.
 Configurations all_configurations(int threads);
-/// Two of each instruction set.
+/// Returns two configurations per instruction set.
 Configurations few_configurations(int threads);
 
-/// "avx2, 2 threads, tiles of 32, shaded at once"
+/// Returns "avx2, 2 threads, tiles of 32, immediate shading".
 std::string to_text(const RendererOptions& configuration);
 
 }  // namespace tessera::program::cli

@@ -1,23 +1,23 @@
-// Triangles that add one level each to what they cover, counted pixel by pixel; and opaque ones, each nearer
-// than all before it, of which the last one is seen. No tolerance.
+// Checks coverage exactly: triangles that each add one level to the pixels they cover, and opaque triangles
+// that are each nearer than all earlier ones, so that the last one is visible.
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <random>
 
-#include "engine/program/cli/selftest_oracles.h"
+#include "engine/program/cli/selftest_checks.h"
 #include "engine/program/scene/fingerprint.h"
 
 namespace tessera::program::cli {
 namespace {
 
-constexpr int kSide = 128;       // of the frame; a power of two, so that clip space holds 1/256 pixel exactly
-constexpr int kTriangles = 255;  // of a frame: as many as 8 bits count
+constexpr int kSide = 128;       // frame size; a power of two, so that clip space is exact in 1/256 pixel
+constexpr int kTriangles = 255;  // per frame: the largest count of 8 bits
 constexpr int kRounds = 20;
 
 using Corner = std::array<std::int32_t, 2>;  // raster space, 1/256 pixel
 using Triangles = std::vector<std::array<Corner, 3>>;
-using Counts = std::vector<std::uint32_t>;  // of each pixel, rows from the top
+using Counts = std::vector<std::uint32_t>;  // per pixel, rows from the top
 
 struct Rng {
   std::mt19937 random;
@@ -30,14 +30,14 @@ std::int64_t doubled_area(const Corner& a, const Corner& b, const Corner& c) {
   return std::int64_t{b[0] - a[0]} * (c[1] - a[1]) - std::int64_t{c[0] - a[0]} * (b[1] - a[1]);
 }
 
-// Of all sizes, as far as the guard band; corners anywhere, on pixels' centres, or on pixels' borders, some
-// of them tiles'.
+// Triangles of all sizes up to the guard band. Corners lie anywhere, on pixel centres, or on pixel borders,
+// some of which are tile borders.
 Triangles random_triangles(Rng& rng) {
   constexpr int kMaxCoordinate = 16000 * 256;
   Triangles triangles;
   for (int i = 0; i < kTriangles; ++i) {
-    const int reach = 1 << rng.between(3, 22),
-              snap = std::array{1, 128, 256}[static_cast<std::size_t>(rng.between(0, 2))];
+    const int reach = 1 << rng.between(3, 22);
+    const int snap = std::array{1, 128, 256}[static_cast<std::size_t>(rng.between(0, 2))];
     const Corner middle{rng.between(0, kSide * 256), rng.between(0, kSide * 256)};
     auto& triangle = triangles.emplace_back();
     for (Corner& corner : triangle)
@@ -49,8 +49,8 @@ Triangles random_triangles(Rng& rng) {
   return triangles;
 }
 
-// Two triangles beyond the frame, of which one is split at a point inside again and again: every edge in the
-// frame is shared.
+// Starts with two triangles that contain the frame and repeatedly splits one at an inner point, so that every
+// edge inside the frame is shared.
 Triangles shared_edges(Rng& rng) {
   constexpr int kLow = -1000, kHigh = kSide * 256 + 1000;
   const Corner p{kLow, kLow}, q{kHigh, kLow}, r{kHigh, kHigh}, s{kLow, kHigh};
@@ -58,7 +58,8 @@ Triangles shared_edges(Rng& rng) {
   for (int tries = 0; tries < 2 * kTriangles && triangles.size() + 2 <= kTriangles; ++tries) {
     auto& split = triangles[rng.random() % triangles.size()];
     const auto [a, b, c] = split;
-    const int along = rng.between(1, 255), across = rng.between(1, 256 - along);
+    const int along = rng.between(1, 255);
+    const int across = rng.between(1, 256 - along);
     Corner inside;
     for (std::size_t axis = 0; axis < 2; ++axis)
       inside[axis] = a[axis] + ((b[axis] - a[axis]) * along + (c[axis] - a[axis]) * across) / 256;
@@ -72,14 +73,13 @@ Triangles shared_edges(Rng& rng) {
   return triangles;
 }
 
-/// What each pixel should hold.
 struct Expected {
-  Counts counts = Counts(static_cast<std::size_t>(kSide) * kSide);  ///< of the triangles that cover it
-  Counts last = counts;  ///< the number of the last of them, from 1 on; 0: none
+  Counts counts = Counts(static_cast<std::size_t>(kSide) * kSide);  ///< number of covering triangles
+  Counts last = counts;  ///< number of the last covering triangle, from 1; 0: none
 };
 
-/// An edge function in exact integers, positive inside: value(x, y) = base + step_x * x + step_y * y at the
-/// centre of pixel (x, y). With corners below 2^22 every product stays below 2^47.
+/// Exact edge function, at least 0 inside: base + step_x * x + step_y * y at the centre of pixel (x, y).
+/// Corners are below 2^22, so every product stays below 2^47.
 struct EdgeFunction {
   std::int64_t base, step_x, step_y;
   EdgeFunction(const Corner& from, const Corner& to) {
@@ -87,7 +87,7 @@ struct EdgeFunction {
     base = along_x * (128 - from[1]) - along_y * (128 - from[0]);
     step_x = -along_y * 256;
     step_y = along_x * 256;
-    // Top-left rule, y down: a centre on an edge belongs to the triangle to its right, or below it.
+    // Top-left rule, y down: a centre on an edge belongs to the triangle on the right of it, or below it.
     const bool is_top_left = step_x > 0 || (step_x == 0 && step_y > 0);
     if (!is_top_left) --base;
   }
@@ -119,7 +119,7 @@ Expected reference_coverage(const Triangles& triangles) {
   return expected;
 }
 
-/// In clip space, either winding, each nearer than the one before.
+/// Returns clip-space positions: either winding, each triangle nearer than the one before.
 std::vector<float> clip_positions(const Triangles& triangles, Rng& rng) {
   std::vector<float> positions;
   float depth = 1;
@@ -137,7 +137,7 @@ std::vector<float> clip_positions(const Triangles& triangles, Rng& rng) {
 
 Counts drawn_counts(const std::vector<float>& positions, Renderer& renderer) {
   DrawState state{.lighting = false};
-  state.material.diffuse = {0, 0, 1 / 255.0f, 1};  // one level of blue, the lowest bits of the word
+  state.material.diffuse = {0, 0, 1 / 255.0f, 1};  // one level of blue, the lowest bits of the packed color
   state.depth.enabled = false;
   state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one};
   FrameBuffer buffer({.width = kSide, .height = kSide});
@@ -148,7 +148,7 @@ Counts drawn_counts(const std::vector<float>& positions, Renderer& renderer) {
   return packed_colors(buffer);
 }
 
-/// The number of each pixel's triangle, as its colour.
+/// Draws each triangle in the colour of its number; returns the number visible at each pixel.
 Counts drawn_numbers(const std::vector<float>& positions, Shading shading, Renderer& renderer) {
   std::vector<float> colors;
   for (std::size_t corner = 0; corner < positions.size() / 3; ++corner)
@@ -163,7 +163,7 @@ Counts drawn_numbers(const std::vector<float>& positions, Shading shading, Rende
 
 }  // namespace
 
-OracleReport check_coverage(const Configurations& configurations) {
+CheckReport check_coverage(const Configurations& configurations) {
   Rng rng{std::mt19937(1)};
   struct Case {
     std::vector<float> positions;
@@ -178,29 +178,30 @@ OracleReport check_coverage(const Configurations& configurations) {
       triangle_count += triangles.size();
       cases.push_back({clip_positions(triangles, rng), reference_coverage(triangles),
                        round % 2 == 0 ? Shading::gouraud : Shading::flat});
+      // Triangles with shared edges cover each pixel exactly once.
       if (shared) cases.back().exact.counts.assign(cases.back().exact.counts.size(), 1);
     }
-  OracleReport report{.oracle = "coverage, 128-bit integers", .measured = {}, .first_failure = {}};
+  CheckReport report{.name = "coverage, exact integers", .measured = {}, .first_failure = {}};
   std::size_t wrong_pixels = 0;
   for (const RendererOptions& configuration : configurations) {
     Renderer renderer(configuration);
     std::size_t wrong = 0;
-    std::string first;
+    std::string first_wrong;
     const auto compare = [&](const Counts& drawn, const Counts& exact, const char* before,
                              const char* after) {
       for (std::size_t i = 0; i < drawn.size(); ++i) {
         if (drawn[i] == exact[i]) continue;
         if (wrong++ == 0)
-          first = "pixel (" + std::to_string(i % kSide) + ", " + std::to_string(i / kSide) + ") " + before +
-                  std::to_string(drawn[i]) + after + ", expected " + std::to_string(exact[i]);
+          first_wrong = "pixel (" + std::to_string(i % kSide) + ", " + std::to_string(i / kSide) + ") " +
+                        before + std::to_string(drawn[i]) + after + ", expected " + std::to_string(exact[i]);
       }
     };
-    for (const Case& each : cases) {
-      compare(drawn_counts(each.positions, renderer), each.exact.counts, "is covered ", " times");
-      compare(drawn_numbers(each.positions, each.shading, renderer), each.exact.last, "shows triangle ", "");
+    for (const Case& c : cases) {
+      compare(drawn_counts(c.positions, renderer), c.exact.counts, "is covered ", " times");
+      compare(drawn_numbers(c.positions, c.shading, renderer), c.exact.last, "shows triangle ", "");
     }
     wrong_pixels += wrong;
-    if (wrong != 0) report.add(first, configuration);
+    if (wrong != 0) report.add(first_wrong, configuration);
   }
   report.measured = std::to_string(triangle_count * configurations.size()) + " triangles, " +
                     std::to_string(wrong_pixels) + " pixels wrong";

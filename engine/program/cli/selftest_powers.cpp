@@ -1,35 +1,38 @@
-// Powers are seen through highlights. A directional light along the view makes the cosine of a highlight the
-// normal's own z, so that a vertex shows emission + specular * z^shininess. With specular = 2^18 and an
-// emission that takes away all but one half of what pow() says, 1/64 of full colour is one unit in the last
-// place (ulp) of a power in 1/2 .. 1; smaller powers of two likewise.
+// Measures powers through highlights. With a directional light along the view, the cosine of the highlight is
+// the normal's z, so that a vertex shows emission + specular * z^shininess. With specular = 2^18 and an
+// emission that brings the exact result to 1/2, 1/64 of full colour is one unit in the last place (ulp) of a
+// power in 1/2 .. 1; specular is scaled likewise for smaller powers.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 
-#include "engine/program/cli/selftest_oracles.h"
+#include "engine/program/cli/selftest_checks.h"
 #include "engine/program/scene/fingerprint.h"
 
 namespace tessera::program::cli {
 namespace {
 
-constexpr int kSide = 64;  // of the frame: a point in each pixel
+constexpr int kSide = 64;  // frame size; one point per pixel
 constexpr int kPoints = kSide * kSide;
-constexpr int kOctaves = 8;                      // results of at least 1/256
-constexpr double kMeasurementUlps = 64 / 510.0;  // 1/510 of full colour, to which a stored level is known
-/// In ulp: of whole exponents up to 64, which are products, what so many roundings come to; of these few
-/// others what tests/shading/power_test.cpp holds them to, near what it measures, where what is promised of
-/// all is 15.6 (tests/numerics/README.md).
+constexpr int kOctaves = 8;                      // powers of at least 1/256
+constexpr double kMeasurementUlps = 64 / 510.0;  // a stored level is known to 1/510 of full colour
+
+/// Error bound in ulp. Whole exponents up to 64 are products and have the error of that many roundings. The
+/// bound of the other exponents tested here is that of tests/shading/power_test.cpp; for arbitrary ones 15.6
+/// is guaranteed (tests/numerics/README.md).
 double bound_ulps(float exponent) {
-  return exponent == std::floor(exponent) && exponent <= 64 ? std::max(double{exponent} - 1, 1.0) : 14;
+  const bool is_product = exponent == std::floor(exponent) && exponent <= 64;
+  return is_product ? std::max(double{exponent} - 1, 1.0) : 14;
 }
 
-/// Points with powers in 2^-(octave + 1) .. 2^-octave.
+/// One point at the centre of each pixel, rows from the bottom, with powers in 2^-(octave + 1) .. 2^-octave.
 struct Powers {
   float exponent;
   double specular;
-  std::vector<float> positions, normals,
-      emissions;  // one point in the middle of each pixel, rows from the bottom
+  std::vector<float> positions;
+  std::vector<float> normals;
+  std::vector<float> emissions;
   std::vector<double> exact;
 
   Powers(float y, int octave) : exponent(y), specular(std::ldexp(1.0, 18 + octave)) {
@@ -67,19 +70,19 @@ struct Powers {
   }
 
   double largest_error_ulps(Renderer& renderer) const {
-    const std::vector<std::uint32_t> words = drawn(renderer);
+    const std::vector<std::uint32_t> colors = drawn(renderer);
     double largest = 0;
     for (int i = 0; i < kPoints; ++i) {
-      const auto at = static_cast<std::size_t>(i),
-                 pixel = static_cast<std::size_t>((kSide - 1 - i / kSide) * kSide + i % kSide);
-      const double found = ((words[pixel] & 255) / 255.0 - double{emissions[4 * at]}) / specular;
+      const auto at = static_cast<std::size_t>(i);
+      const auto pixel = static_cast<std::size_t>((kSide - 1 - i / kSide) * kSide + i % kSide);
+      const double found = ((colors[pixel] & 255) / 255.0 - double{emissions[4 * at]}) / specular;
       largest = std::max(largest, std::abs(found - exact[at]) / std::ldexp(1.0, std::ilogb(exact[at]) - 23));
     }
     return largest;
   }
 };
 
-// "14", "9.9"
+// Formats as "14" or "9.9".
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.*f", value == std::floor(value) ? 0 : 1, value);
@@ -88,27 +91,28 @@ std::string number(double value) {
 
 }  // namespace
 
-OracleReport check_powers(const Configurations& configurations) {
+CheckReport check_powers(const Configurations& configurations) {
   std::vector<Powers> powers;
   for (const float exponent : {0.5f, 2.0f, 20.0f, 128.0f, 10000.0f})
     for (int octave = 0; octave < kOctaves; ++octave) powers.emplace_back(exponent, octave);
-  OracleReport report{.oracle = "powers, pow() in double", .measured = {}, .first_failure = {}};
-  double largest = 0, share = 0;  // of what is promised
+  CheckReport report{.name = "powers, pow() in double", .measured = {}, .first_failure = {}};
+  double largest = 0;
+  double share = 0;  // largest error as a fraction of its bound
   for (const RendererOptions& configuration : configurations) {
     Renderer renderer(configuration);
-    for (const Powers& each : powers) {
-      const double error = each.largest_error_ulps(renderer);
-      // What is off by more than 31 ulp ends at black or white.
-      if (error > bound_ulps(each.exponent) + kMeasurementUlps)
-        report.add("x^" + number(each.exponent) + " is off by " + number(error) + " ulp or more",
+    for (const Powers& p : powers) {
+      const double error = p.largest_error_ulps(renderer);
+      // "or more": errors above 31 ulp saturate at black or white.
+      if (error > bound_ulps(p.exponent) + kMeasurementUlps)
+        report.add("the error of x^" + number(p.exponent) + " is " + number(error) +
+                       " ulp or more, must be at most " + number(bound_ulps(p.exponent)),
                    configuration);
       largest = std::max(largest, error);
-      share = std::max(share, (error - kMeasurementUlps) / bound_ulps(each.exponent));
+      share = std::max(share, (error - kMeasurementUlps) / bound_ulps(p.exponent));
     }
   }
-  report.measured = std::to_string(powers.size() * kPoints * configurations.size()) + " powers, at most " +
-                    number(largest) + " ulp and " + number(std::ceil(100 * share)) +
-                    " % of what is promised off";
+  report.measured = std::to_string(powers.size() * kPoints * configurations.size()) + " powers, error " +
+                    number(largest) + " ulp, " + number(std::ceil(100 * share)) + " % of its bound";
   return report;
 }
 

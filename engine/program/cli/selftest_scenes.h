@@ -1,6 +1,5 @@
-// The scenes that the self-test renders and what they must come to: scenes of tests/scenes, named in
-// selftest_scenes.txt, and their lines of tests/picture_hashes.txt. CMake turns them into a source
-// (embed_selftest.cmake).
+// The scenes that the self-test renders, with their expected hashes. embed_selftest.cmake generates the
+// source from selftest_scenes.txt, tests/scenes and tests/picture_hashes.txt.
 #pragma once
 
 #include <span>
@@ -10,7 +9,7 @@ namespace tessera::program::cli {
 
 struct SelftestScene {
   std::string_view name;
-  std::string_view about;  ///< what of the renderer it meets
+  std::string_view description;
   std::string_view json;
 };
 

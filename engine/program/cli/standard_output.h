@@ -1,4 +1,4 @@
-// The standard output, of which nothing may be lost without a word.
+// Writes to the standard output with errors reported.
 #pragma once
 
 #include <cerrno>
@@ -12,14 +12,15 @@
 
 namespace tessera::program::cli {
 
-/// Hands a text over at once. @throws Error where that fails, for want of room on a disk, say
+/// Writes and flushes a text.
+/// @throws Error if that fails, for example on a full disk
 inline void write_to_stdout(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     throw Error(std::string("cannot write to the standard output: ") + std::strerror(errno));
 }
 
-/// Hands over what is still waiting in std::cout and stdio. @throws Error where that fails, or where
-/// something was lost before: the reason of that is not known any more
+/// Flushes stdout.
+/// @throws Error if that or an earlier write failed; the reason of an earlier failure is no longer known
 inline void require_stdout_written() {
   write_to_stdout("");
   if (std::ferror(stdout) != 0 || !std::cout) throw Error("cannot write to the standard output");

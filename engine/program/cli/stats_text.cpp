@@ -9,7 +9,7 @@
 namespace tessera::program::cli {
 namespace {
 
-// 1234567 as 1,234,567.
+// Formats 1234567 as 1,234,567.
 std::string grouped(std::uint64_t number) {
   std::string text = std::to_string(number);
   for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, ",");
@@ -42,8 +42,8 @@ std::vector<Count> counts_of(const FrameStats& s) {
           {"  dropped: no area", "zero_area", s.zero_area},
           {"  clipped", "clipped", s.clipped},
           {"  binned, with derived primitives", "binned", s.binned},
-          {"triangles summed over tiles", "bin_entries", s.bin_entries},
-          {"passes over the triangles", "bin_passes", s.bin_passes},
+          {"triangles, summed over tiles", "bin_entries", s.bin_entries},
+          {"binning passes", "bin_passes", s.bin_passes},
           {"tiles", "tiles", s.tiles},
           {"tiles touched", "tiles_touched", s.tiles_touched},
           {"fragments", "fragments", s.fragments},
@@ -71,7 +71,7 @@ std::string stats_text(const RunStats& stats) {
                      (threads == 1 ? " thread, " : " threads, ") +
                      std::string(name(stats.options.instruction_set)) + ", tiles of " +
                      std::to_string(stats.frame.tile_size) + " pixels\n";
-  text += row("reading and setting up", milliseconds(stats.load_ms));
+  text += row("loading", milliseconds(stats.load_ms));
   const auto [fastest, slowest] = std::minmax_element(stats.render_ms.begin(), stats.render_ms.end());
   if (stats.render_ms.size() == 1) {
     text += row("rendering", milliseconds(*fastest));
@@ -81,12 +81,12 @@ std::string stats_text(const RunStats& stats) {
     text += row("  fastest", milliseconds(*fastest)) + row("  slowest", milliseconds(*slowest));
   }
   for (const auto& [stage, seconds] : stages_of(stats.frame))
-    text += row(std::string("  ") + stage + (stats.render_ms.size() > 1 ? ", of the last" : ""),
+    text += row(std::string("  ") + stage + (stats.render_ms.size() > 1 ? ", last rendering" : ""),
                 milliseconds(1e3 * seconds));
   text += row("writing files", milliseconds(stats.write_ms));
   for (const Count& count : counts_of(stats.frame)) text += row(count.label, grouped(count.value));
   for (std::size_t i = 0; i < stats.buffer_bytes.size(); ++i)
-    text += row(std::string("bytes of the ") + kBufferNames[i] + " planes", grouped(stats.buffer_bytes[i]));
+    text += row(std::string("bytes of ") + kBufferNames[i] + " planes", grouped(stats.buffer_bytes[i]));
   return text;
 }
 

@@ -1,4 +1,4 @@
-// What frames took, for people and for programs.
+// Formats statistics of a run as text or as JSON.
 #pragma once
 
 #include <array>
@@ -13,12 +13,13 @@ namespace tessera::program::cli {
 enum class StatsFormat { none, text, json };
 
 struct RunStats {
-  FrameStats frame;  ///< of the last frame rendered
+  FrameStats frame;  ///< of the last frame
   RendererOptions options;
-  double load_ms = 0, write_ms = 0;
-  std::vector<double> render_ms;  ///< of every rendering
+  double load_ms = 0;
+  double write_ms = 0;
+  std::vector<double> render_ms;  ///< one per rendering
   std::array<std::size_t, 4>
-      buffer_bytes{};  ///< colour, depth, stencil, accumulation: what their planes take
+      buffer_bytes{};  ///< memory of the planes of colour, depth, stencil, accumulation
 };
 
 std::string stats_text(const RunStats& stats);

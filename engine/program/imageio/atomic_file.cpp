@@ -31,7 +31,7 @@ fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// A link there tells in words what it leads to: "pipe:[7]", or a file that has no name any more.
+/// Targets of links in /proc are descriptions rather than paths: "pipe:[7]", or the name of a deleted file.
 bool is_in_proc(const fs::path& file) {
   std::error_code error;
   return fs::canonical(folder_of(file), error).native().starts_with("/proc/");
@@ -54,7 +54,7 @@ std::optional<fs::path> require_writable(const std::string& path) {
   const fs::path folder = folder_of(target);
   if (!fs::is_directory(folder, error)) fail(path, "there is no folder \"" + folder.string() + "\"");
   if (::access(folder.c_str(), W_OK) != 0)
-    fail(path, "no new file in \"" + folder.string() + "\": " + std::strerror(errno));
+    fail(path, "cannot create a file in \"" + folder.string() + "\": " + std::strerror(errno));
   return fs::canonical(folder) / target.filename();
 }
 

@@ -1,5 +1,5 @@
-// Files that appear as a whole: written under another name in the same folder, then renamed. A failure leaves
-// what was there.
+// Writes files as a whole: to a temporary file in the same folder, which is then renamed. A failure leaves
+// the old file as it was.
 #pragma once
 
 #include <filesystem>
@@ -9,17 +9,16 @@
 
 namespace tessera::program {
 
-/// A link stays one: what it points to is replaced, by a file with the usual permissions. A device, a pipe or
-/// what is open elsewhere
-/// (/dev/stdout) is written to as it is.
-/// @throws Error, naming the path and the reason.
+/// Replaces or creates a file.
+/// - A symbolic link stays; the file it leads to is replaced, with default permissions.
+/// - Devices, pipes and open files (/dev/stdout) are written to directly.
+/// @throws Error, naming the path and the reason
 void write_file_atomically(const std::string& path, std::string_view content);
 
-/// For who needs long to make the content. Nothing is made.
-/// @return the file that would be replaced, by its one absolute name; nothing for what would be written to as
-/// it is
-/// @throws Error, as write_file_atomically() would before it writes: for a folder, a missing folder, a lack
-/// of permission.
+/// Checks, before expensive work, that write_file_atomically() can succeed. Creates nothing.
+/// @return the canonical path of the file that would be replaced or created; nothing if the path would be
+///   written to directly
+/// @throws Error for a folder, a missing folder or missing permission
 std::optional<std::filesystem::path> require_writable(const std::string& path);
 
 }  // namespace tessera::program

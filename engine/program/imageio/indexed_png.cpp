@@ -6,8 +6,6 @@
 
 #include <png.h>
 
-#include "engine/program/imageio/module_interface.h"
-
 namespace tessera::program {
 namespace {
 
@@ -20,14 +18,14 @@ void append(png_structp png, png_bytep bytes, std::size_t count) {
   auto& file = static_cast<Writer*>(png_get_io_ptr(png))->file;
   file.insert(file.end(), bytes, bytes + count);
 }
-void nothing(png_structp) {}
+void no_flush(png_structp) {}
 [[noreturn]] void fail(png_structp png, png_const_charp message) {
   static_cast<Writer*>(png_get_error_ptr(png))->error = std::string("libpng: ") + message;
   longjmp(png_jmpbuf(png), 1);
 }
-void ignore(png_structp, png_const_charp) {}
+void ignore_warning(png_structp, png_const_charp) {}
 
-// Nothing here has a destructor: libpng leaves by longjmp.
+// libpng reports errors by longjmp, so no local variable here may have a destructor.
 void write(png_structp png, png_infop info, const unsigned char* indices, int width, int height, int bits,
            const unsigned char* palette, int entries, int compression, unsigned char* row) {
   if (setjmp(png_jmpbuf(png)) != 0) return;
@@ -40,12 +38,6 @@ void write(png_structp png, png_infop info, const unsigned char* indices, int wi
     for (int i = 0; i < entries; ++i) colors[i] = {palette[3 * i], palette[3 * i + 1], palette[3 * i + 2]};
     png_set_PLTE(png, info, colors, entries);
   }
-  char keyword[] = "Software", software[] = TESSERA_IMAGEIO_SOFTWARE;
-  png_text text{};
-  text.compression = PNG_TEXT_COMPRESSION_NONE;
-  text.key = keyword;
-  text.text = software;
-  png_set_text(png, info, &text, 1);
   png_write_info(png, info);
   const int per_byte = 8 / bits;
   for (int y = 0; y < height; ++y) {
@@ -66,17 +58,17 @@ std::string encode_indexed_png(const unsigned char* indices, int width, int heig
                                const unsigned char* palette, int palette_entries, int compression,
                                std::vector<unsigned char>& file) {
   if (palette_entries > 1 << bits)
-    return "a palette of " + std::to_string(palette_entries) + " entries does not fit " +
-           std::to_string(bits) + " bits";
+    return "the palette has " + std::to_string(palette_entries) + " entries, must be at most " +
+           std::to_string(1 << bits) + " for " + std::to_string(bits) + " bits";
   Writer writer{file, {}};
   std::vector<unsigned char> row(static_cast<std::size_t>(width));
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, fail, ignore);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, fail, ignore_warning);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
   if (info == nullptr) {
     png_destroy_write_struct(&png, nullptr);
     return "libpng: not enough memory";
   }
-  png_set_write_fn(png, &writer, append, nothing);
+  png_set_write_fn(png, &writer, append, no_flush);
   write(png, info, indices, width, height, bits, palette, palette_entries, compression, row.data());
   png_destroy_write_struct(&png, &info);
   return writer.error;

@@ -1,4 +1,4 @@
-// PNG of 1, 2, 4 and 8 bits a pixel, by libpng: OpenImageIO writes all of them with 8 bits a component.
+// Encodes PNG files of 1, 2, 4 or 8 bits per pixel with libpng; OpenImageIO writes 8 bits per component only.
 #pragma once
 
 #include <string>
@@ -6,8 +6,11 @@
 
 namespace tessera::program {
 
-/// Appends a PNG file to `file`: indices into the palette's colours of 3 bytes, or greys where it has no
-/// entries. Returns what went wrong, or nothing.
+/// Appends a PNG file to `file`.
+/// @param indices  one byte per pixel, rows from the top
+/// @param palette  3 bytes per entry; ignored if palette_entries is 0: the picture is then grey
+/// @param compression  0 .. 9
+/// @return the error; empty: success
 std::string encode_indexed_png(const unsigned char* indices, int width, int height, int bits,
                                const unsigned char* palette, int palette_entries, int compression,
                                std::vector<unsigned char>& file);

@@ -1,5 +1,5 @@
-// The module libtessera_imageio: with indexed_png.cpp the only code that sees OpenImageIO and libpng.
-// OpenImageIO brings 260 libraries and 130 MiB with it, so the program loads it when the first file needs it.
+// The module libtessera_imageio: with indexed_png.cpp the only code that uses OpenImageIO and libpng.
+// OpenImageIO depends on 260 libraries of 130 MiB, so the program loads the module on first use.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -22,58 +22,61 @@ constexpr int kPngCompression = 3;
 
 using Bytes = std::vector<unsigned char>;
 
-/// Thrown inside the module only.
+/// Never leaves the module.
 struct Failure {
   std::string reason;
 };
 
-Bytes encode(const std::string& ending, const unsigned char* rgba, int width, int height,
+Bytes encode(const std::string& extension, const unsigned char* rgba, int width, int height,
              std::ptrdiff_t stride_bytes, int compression) {
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("picture" + ending);
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("picture" + extension);
   if (!output) {
-    OIIO::geterror();  // names a file that does not exist
-    throw Failure{"OpenImageIO knows no format " + ending};
+    OIIO::geterror();  // cleared: its text names a file that does not exist
+    throw Failure{"OpenImageIO does not support the format " + extension};
   }
   Bytes bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   if (!output->supports("ioproxy") || !output->set_ioproxy(&memory))
-    throw Failure{"OpenImageIO cannot encode " + ending + " in memory"};
+    throw Failure{"OpenImageIO cannot encode " + extension + " in memory"};
   constexpr int kChannels = 3;
   OIIO::ImageSpec spec(width, height, kChannels, OIIO::TypeDesc::UINT8);
-  spec.attribute("Software", TESSERA_IMAGEIO_SOFTWARE);
   spec.attribute("png:compressionLevel", compression >= 0 ? compression : kPngCompression);
-  const bool is_encoded = output->open("picture" + ending, spec) &&
+  const bool is_encoded = output->open("picture" + extension, spec) &&
                           output->write_image(OIIO::TypeDesc::UINT8, rgba, 4, stride_bytes) &&
                           output->close();
   if (!is_encoded) throw Failure{"OpenImageIO: " + output->geterror()};
   return bytes;
 }
 
-/// Width, height and channels, then RGBA.
-Bytes decode(const std::string& ending, const unsigned char* file, std::size_t count, int max_side_px) {
-  OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(file), count);  // which only reads
-  OIIO::ImageSpec asked;
-  asked.attribute("oiio:UnassociatedAlpha", 1);  // colours as the file has them
+/// Returns width, height and channels as ints, then RGBA pixels.
+Bytes decode(const std::string& extension, const unsigned char* file, std::size_t count, int max_side_px) {
+  OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(file), count);  // read only
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);  // no premultiplication
   OIIO::Filesystem::IOProxy* const proxy = &memory;
-  asked.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR,
-                  &proxy);  // open() forgets its own one where something is asked for
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open("picture" + ending, &asked, &memory);
+  // open() ignores its own proxy parameter if a configuration is given.
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  const std::unique_ptr<OIIO::ImageInput> input =
+      OIIO::ImageInput::open("picture" + extension, &config, &memory);
   if (!input) throw Failure{"OpenImageIO: " + OIIO::geterror()};
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.width > max_side_px || spec.height > max_side_px)
     throw Failure{"the image is " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
-                  ", at most " + std::to_string(max_side_px) + " a side are read"};
+                  ", each side must be 1 to " + std::to_string(max_side_px)};
   const int channels = spec.nchannels;
-  if (spec.depth > 1 || channels < 1)  // read_image() gives every layer of a volume
+  if (spec.depth > 1 || channels < 1)  // read_image() returns all layers of a volume
     throw Failure{"the image has " + std::to_string(spec.depth) + " layers of " + std::to_string(channels) +
                   " channels, expected one layer"};
   const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
   const int size[3] = {spec.width, spec.height, channels < 4 ? channels : 4};
-  Bytes raw(pixels * static_cast<std::size_t>(channels)), bytes(sizeof size + 4 * pixels, 255);
+  Bytes raw(pixels * static_cast<std::size_t>(channels));
+  Bytes bytes(sizeof size + 4 * pixels, 255);
   if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data()))
     throw Failure{"OpenImageIO: " + input->geterror()};
   std::memcpy(bytes.data(), size, sizeof size);
-  const int alpha = channels == 2 ? 1 : channels >= 4 ? 3 : -1;
+  int alpha = -1;  // channel index; -1: none
+  if (channels == 2) alpha = 1;
+  if (channels >= 4) alpha = 3;
   for (std::size_t i = 0; i < pixels; ++i) {
     const unsigned char* const from = &raw[i * static_cast<std::size_t>(channels)];
     unsigned char* const to = &bytes[sizeof size + 4 * i];
@@ -85,16 +88,18 @@ Bytes decode(const std::string& ending, const unsigned char* file, std::size_t c
 
 Bytes formats() {
   // "png:png;tiff:tif,tiff;..."
-  std::string list, all = OIIO::get_string_attribute("extension_list");
+  const std::string all = OIIO::get_string_attribute("extension_list");
+  std::string list;
   std::size_t at = 0;
   while (at < all.size()) {
-    const std::size_t end = std::min(all.find(';', at), all.size()), colon = std::min(all.find(':', at), end);
-    std::string endings = colon < end ? all.substr(colon + 1, end - colon - 1) : "";
-    for (std::size_t from = 0; from < endings.size();) {
-      const std::size_t comma = std::min(endings.find(',', from), endings.size());
-      const std::string ending = "." + endings.substr(from, comma - from);
-      const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("picture" + ending);
-      if (output && output->supports("ioproxy")) list += (list.empty() ? "" : ",") + ending;
+    const std::size_t end = std::min(all.find(';', at), all.size());
+    const std::size_t colon = std::min(all.find(':', at), end);
+    const std::string extensions = colon < end ? all.substr(colon + 1, end - colon - 1) : "";
+    for (std::size_t from = 0; from < extensions.size();) {
+      const std::size_t comma = std::min(extensions.find(',', from), extensions.size());
+      const std::string extension = "." + extensions.substr(from, comma - from);
+      const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("picture" + extension);
+      if (output && output->supports("ioproxy")) list += (list.empty() ? "" : ",") + extension;
       from = comma + 1;
     }
     at = end + 1;
@@ -103,13 +108,13 @@ Bytes formats() {
   return {list.begin(), list.end()};
 }
 
-/// Runs make() and hands its bytes over; no exception leaves the module.
+/// Delivers the bytes of make() to `take`. Catches every exception.
 template <class Make>
 int deliver_bytes(tessera_imageio_take_function* take, void* user, char* message, std::size_t message_size,
                   const Make& make) {
   std::string reason;
   try {
-    OIIO::attribute("threads", 1);  // the renderer's threads are the process's threads
+    OIIO::attribute("threads", 1);  // no threads besides the renderer's
     const Bytes bytes = make();
     take(user, bytes.data(), bytes.size());
     return 0;
@@ -124,12 +129,12 @@ int deliver_bytes(tessera_imageio_take_function* take, void* user, char* message
 
 }  // namespace
 
-extern "C" TESSERA_API int tessera_imageio_encode_2(const char* ending, const unsigned char* rgba, int width,
-                                                    int height, std::ptrdiff_t stride_bytes, int compression,
-                                                    tessera_imageio_take_function* take, void* user,
-                                                    char* message, std::size_t message_size) {
+extern "C" TESSERA_API int tessera_imageio_encode_2(const char* extension, const unsigned char* rgba,
+                                                    int width, int height, std::ptrdiff_t stride_bytes,
+                                                    int compression, tessera_imageio_take_function* take,
+                                                    void* user, char* message, std::size_t message_size) {
   return deliver_bytes(take, user, message, message_size,
-                       [&] { return encode(ending, rgba, width, height, stride_bytes, compression); });
+                       [&] { return encode(extension, rgba, width, height, stride_bytes, compression); });
 }
 
 extern "C" TESSERA_API int tessera_imageio_encode_indexed_1(const unsigned char* indices, int width,
@@ -148,12 +153,12 @@ extern "C" TESSERA_API int tessera_imageio_encode_indexed_1(const unsigned char*
   });
 }
 
-extern "C" TESSERA_API int tessera_imageio_decode_2(const char* ending, const unsigned char* bytes,
+extern "C" TESSERA_API int tessera_imageio_decode_2(const char* extension, const unsigned char* bytes,
                                                     std::size_t count, int max_side_px,
                                                     tessera_imageio_take_function* take, void* user,
                                                     char* message, std::size_t message_size) {
   return deliver_bytes(take, user, message, message_size,
-                       [&] { return decode(ending, bytes, count, max_side_px); });
+                       [&] { return decode(extension, bytes, count, max_side_px); });
 }
 
 extern "C" TESSERA_API int tessera_imageio_formats_1(tessera_imageio_take_function* take, void* user,

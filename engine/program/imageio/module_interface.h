@@ -1,5 +1,5 @@
-/* What the program and the module libtessera_imageio agree on: C, so that neither needs the other to be
- * linked. */
+/* Interface between the program and the module libtessera_imageio. It is plain C and loaded at run time, so
+ * that the program does not link OpenImageIO. */
 #ifndef TESSERA_ENGINE_IMAGEIO_MODULE_INTERFACE_H
 #define TESSERA_ENGINE_IMAGEIO_MODULE_INTERFACE_H
 
@@ -9,40 +9,38 @@
 extern "C" {
 #endif
 
-/* Takes the bytes of the file; called once. */
+/* Receives the bytes of the file; called once. */
 typedef void tessera_imageio_take_function(void* user, const unsigned char* bytes, size_t count);
 
-/* Each function returns 0, or 1 and a reason in `message` (cut to message_size, always ended). Files are the
-   program's business: some of OpenImageIO's writers do not notice a full disk. */
+/* Each function returns 0, or 1 with a reason in `message` (truncated to message_size, always terminated).
+   The program reads and writes the files: some of OpenImageIO's writers do not notice a full disk. */
 
-/* Encodes RGBA pixels of 8 bits, rows from the top, as an image without alpha in the format that `ending`
-   (".png") stands for. compression: of PNG, 0 .. 9; -1: a quick one. */
-typedef int tessera_imageio_encode_function(const char* ending, const unsigned char* rgba, int width,
+/* Encodes RGBA pixels of 8 bits per component, rows from the top, as an image without alpha.
+   extension    selects the format: ".png"
+   compression  of PNG, 0 .. 9; -1: a fast default */
+typedef int tessera_imageio_encode_function(const char* extension, const unsigned char* rgba, int width,
                                             int height, ptrdiff_t stride_bytes, int compression,
                                             tessera_imageio_take_function* take, void* user, char* message,
                                             size_t message_size);
 
-/* Encodes a PNG of 1, 2, 4 or 8 bits a pixel: indices into palette_entries colours of 3 bytes, or greys where
- * there are none. */
+/* Encodes a PNG of 1, 2, 4 or 8 bits per pixel from indices into a palette of 3 bytes per entry; grey if
+   palette_entries is 0. */
 typedef int tessera_imageio_encode_indexed_function(const unsigned char* indices, int width, int height,
                                                     int bits, const unsigned char* palette,
                                                     int palette_entries, int compression,
                                                     tessera_imageio_take_function* take, void* user,
                                                     char* message, size_t message_size);
 
-/* Decodes the bytes of an image file; `take` receives width, height and the file's number of channels, 1 to 4
-   (of more the first), as three ints, then RGBA pixels, rows from the top: of one and two channels red =
-   green = blue, alpha 255 where there is none. */
-typedef int tessera_imageio_decode_function(const char* ending, const unsigned char* bytes, size_t count,
+/* Decodes an image file. `take` receives three ints, width, height and number of channels (1 to 4; further
+   ones are ignored), then RGBA pixels, rows from the top. With one or two channels red = green = blue;
+   without alpha it is 255. */
+typedef int tessera_imageio_decode_function(const char* extension, const unsigned char* bytes, size_t count,
                                             int max_side_px, tessera_imageio_take_function* take, void* user,
                                             char* message, size_t message_size);
 
-/* The endings of the formats that can be written, with commas between. */
+/* Delivers the file name extensions of the writable formats, separated by commas. */
 typedef int tessera_imageio_formats_function(tessera_imageio_take_function* take, void* user, char* message,
                                              size_t message_size);
-
-/* Every PNG that is encoded says that this is its "Software", before its pixels. */
-#define TESSERA_IMAGEIO_SOFTWARE "Tessera"
 
 /* The numbers change with the signatures. */
 #define TESSERA_IMAGEIO_ENCODE_NAME "tessera_imageio_encode_2"

@@ -12,9 +12,8 @@ namespace {
 
 template <class Function>
 Function* function_of_module(const char* name, const std::string& wanted_for) {
-  static void* const module =
-      load_module(TESSERA_IMAGEIO_FILE_NAME, wanted_for,
-                  ".ppm works without it");  // a failure leaves it unset: the next call tries anew
+  // If load_module() throws, the next call tries again.
+  static void* const module = load_module(TESSERA_IMAGEIO_FILE_NAME, wanted_for, ".ppm works without it");
   return reinterpret_cast<Function*>(function_of(module, TESSERA_IMAGEIO_FILE_NAME, name));
 }
 
@@ -24,11 +23,11 @@ const unsigned char* bytes_of(const std::string& text) {
 
 }  // namespace
 
-std::string encode_by_module(const Picture& picture, const std::string& ending, int compression) {
+std::string encode_by_module(const Picture& picture, const std::string& extension, int compression) {
   auto* const encode =
-      function_of_module<tessera_imageio_encode_function>(TESSERA_IMAGEIO_ENCODE_NAME, ending);
+      function_of_module<tessera_imageio_encode_function>(TESSERA_IMAGEIO_ENCODE_NAME, extension);
   return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
-    return encode(ending.c_str(), picture.rgba.data(), picture.width, picture.height,
+    return encode(extension.c_str(), picture.rgba.data(), picture.width, picture.height,
                   4 * std::ptrdiff_t{picture.width}, compression, take, user, message, size);
   });
 }
@@ -42,11 +41,11 @@ std::string encode_indexed_by_module(const IndexedPicture& picture, int compress
   });
 }
 
-Picture decode_by_module(const std::string& file, const std::string& ending) {
+Picture decode_by_module(const std::string& file, const std::string& extension) {
   auto* const decode =
-      function_of_module<tessera_imageio_decode_function>(TESSERA_IMAGEIO_DECODE_NAME, ending);
+      function_of_module<tessera_imageio_decode_function>(TESSERA_IMAGEIO_DECODE_NAME, extension);
   const std::string decoded = collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
-    return decode(ending.c_str(), bytes_of(file), file.size(), kMaxFrameBufferSize, take, user, message,
+    return decode(extension.c_str(), bytes_of(file), file.size(), kMaxFrameBufferSize, take, user, message,
                   size);
   });
   int size[3];
@@ -63,10 +62,10 @@ std::vector<std::string> module_extensions() {
   std::istringstream list(collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
     return formats(take, user, message, size);
   }));
-  std::vector<std::string> endings;
-  for (std::string ending; std::getline(list, ending, ',');) endings.push_back(ending);
-  std::sort(endings.begin(), endings.end());
-  return endings;
+  std::vector<std::string> extensions;
+  for (std::string extension; std::getline(list, extension, ',');) extensions.push_back(extension);
+  std::sort(extensions.begin(), extensions.end());
+  return extensions;
 }
 
 }  // namespace tessera::program

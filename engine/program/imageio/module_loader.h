@@ -1,6 +1,5 @@
-// The module libtessera_imageio, loaded on first need: beside the running program, in ../lib from there, or
-// where the system looks for libraries; once found it stays loaded. Each function throws Error: where the
-// module is missing, by its name; and with what the module says.
+// Calls the module libtessera_imageio, which is loaded on first use (loaded_module.h) and stays loaded. Each
+// function throws Error if the module is missing, and with the module's own message if it fails.
 #pragma once
 
 #include <string>
@@ -10,14 +9,15 @@
 
 namespace tessera::program {
 
-/// The bytes of an image file.
-/// @param ending  of the file, in lower case with its dot: the format
+/// Returns the bytes of an image file.
+/// @param extension  selects the format; in lower case with its dot
 /// @param compression  of PNG, 0 .. 9, or kDefaultCompression
-std::string encode_by_module(const Picture& picture, const std::string& ending, int compression);
+std::string encode_by_module(const Picture& picture, const std::string& extension, int compression);
 
-/// The bytes of a PNG file.
+/// Returns the bytes of a PNG file.
 std::string encode_indexed_by_module(const IndexedPicture& picture, int compression);
 
-Picture decode_by_module(const std::string& file, const std::string& ending);
+/// Decodes the bytes of an image file.
+Picture decode_by_module(const std::string& file, const std::string& extension);
 
 }  // namespace tessera::program

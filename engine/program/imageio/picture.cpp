@@ -4,11 +4,9 @@
 #include <bit>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 
 #include "engine/program/imageio/atomic_file.h"
-#include "engine/program/imageio/module_interface.h"
 #include "engine/program/imageio/module_loader.h"
 #include "engine/program/scene/file_extension.h"
 #include "engine/program/scene/text_file.h"
@@ -16,6 +14,7 @@
 namespace tessera::program {
 namespace {
 
+// Header of the Netpbm formats; PFM and PBM have no maximum.
 std::string header(const char* magic, int width, int height, bool has_maximum = true) {
   return std::string(magic) + "\n" + std::to_string(width) + " " + std::to_string(height) + "\n" +
          (has_maximum ? "255\n" : "");
@@ -29,7 +28,7 @@ std::string pgm(const Picture& picture) {
   return file;
 }
 
-// Rows from below; a negative scale says that the floats are little-endian.
+// PFM rows run from the bottom; the negative scale marks little-endian floats.
 std::string pfm(const Picture& picture) {
   static_assert(std::endian::native == std::endian::little);
   std::string file = header("PF", picture.width, picture.height, false) + "-1.0\n";
@@ -74,7 +73,7 @@ std::vector<std::string> builtin_extensions() { return {".pbm (planes)", ".pfm",
 
 namespace {
 
-// What `encode` makes; its errors name the path.
+// Returns encode(); adds the path to the messages of its errors.
 template <class Encode>
 std::string encoded_for(const std::string& path, const Encode& encode) {
   try {
@@ -84,23 +83,22 @@ std::string encoded_for(const std::string& path, const Encode& encode) {
   }
 }
 
-// In the format of the path's ending.
+// Encodes in the format given by the path's extension.
 std::string encode_picture(const Picture& picture, const std::string& path, int compression) {
   return encoded_for(path, [&]() -> std::string {
-    const std::string ending = lower_case_extension(path);
-    if (ending.empty())
-      throw Error("its name has no ending to tell the format by; .png and .ppm are the usual ones");
-    if (ending == ".pbm")
-      throw Error("a .pbm holds one plane; write a .ppm or .png, or the planes one by one");
-    if (ending == ".ppm") return encode_ppm(picture);
-    if (ending == ".pgm") return pgm(picture);
-    if (ending == ".pfm") return pfm(picture);
-    if (ending == ".raw") return raw(picture);
-    return encode_by_module(picture, ending, compression);
+    const std::string extension = lower_case_extension(path);
+    if (extension.empty()) throw Error("the name has no extension, expected one such as .png or .ppm");
+    if (extension == ".pbm")
+      throw Error("a .pbm file holds one plane; write a .png or .ppm, or the planes with --planes");
+    if (extension == ".ppm") return encode_ppm(picture);
+    if (extension == ".pgm") return pgm(picture);
+    if (extension == ".pfm") return pfm(picture);
+    if (extension == ".raw") return raw(picture);
+    return encode_by_module(picture, extension, compression);
   });
 }
 
-// "P6", width, height and 255, with comments between; then the pixels.
+// Binary PPM: "P6", width, height and 255, separated by whitespace and comments; then the pixels.
 Picture decode_ppm(const std::string& file) {
   std::size_t at = 2;
   const auto number = [&] {
@@ -109,14 +107,15 @@ Picture decode_ppm(const std::string& file) {
     int value = 0;
     const auto [end, error] = std::from_chars(file.data() + at, file.data() + file.size(), value);
     if (error != std::errc{} || value < 1 || value > kMaxFrameBufferSize)
-      throw Error("its header does not hold width, height and 255; at most " +
-                  std::to_string(kMaxFrameBufferSize) + " a side are read");
+      throw Error("the header must hold width, height and 255; each side must be 1 to " +
+                  std::to_string(kMaxFrameBufferSize));
     at = static_cast<std::size_t>(end - file.data());
     return value;
   };
-  if (!file.starts_with("P6")) throw Error("it is no binary PPM");
-  const int width = number(), height = number();
-  if (number() != 255) throw Error("its components do not have 8 bits");
+  if (!file.starts_with("P6")) throw Error("it is not a binary PPM file");
+  const int width = number();
+  const int height = number();
+  if (number() != 255) throw Error("the maximum is not 255: only 8 bits per component are supported");
   ++at;
   const std::size_t needed = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (file.size() - std::min(at, file.size()) < needed) throw Error("it ends before its last pixel");
@@ -135,8 +134,8 @@ Picture decode_ppm(const std::string& file) {
 Picture read_picture(const std::string& path) {
   const std::string file = read_text_file(path);
   try {
-    const std::string ending = lower_case_extension(path);
-    return ending == ".ppm" ? decode_ppm(file) : decode_by_module(file, ending);
+    const std::string extension = lower_case_extension(path);
+    return extension == ".ppm" ? decode_ppm(file) : decode_by_module(file, extension);
   } catch (const Error& error) {
     throw Error("cannot read \"" + path + "\": " + error.what());
   }
@@ -145,16 +144,6 @@ Picture read_picture(const std::string& path) {
 void write_indexed_png(const IndexedPicture& picture, const std::string& path, int compression) {
   write_file_atomically(path,
                         encoded_for(path, [&] { return encode_indexed_by_module(picture, compression); }));
-}
-
-bool is_tessera_png(const std::string& path) {
-  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n",
-                             kText("Software\0" TESSERA_IMAGEIO_SOFTWARE,
-                                   sizeof "Software\0" TESSERA_IMAGEIO_SOFTWARE - 1);
-  const std::string length = {0, 0, 0, static_cast<char>(kText.size())};
-  std::string head(2048, '\0');  // has room for the longest palette and all that stands before the text
-  std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
-  return head.starts_with(kSignature) && head.find(length + "tEXt" + std::string(kText)) != head.npos;
 }
 
 void write_picture(const Picture& picture, const std::string& path, int compression) {
@@ -172,8 +161,8 @@ void write_plane(const PlaneView& plane, const std::string& path) {
   const int spare_bits = static_cast<int>(8 * bytes) - plane.width;
   for (int y = 0; y < plane.height; ++y) {
     file.append(reinterpret_cast<const char*>(plane.bits + y * plane.stride_bytes), bytes);
-    file.back() = static_cast<char>(static_cast<unsigned char>(file.back()) &
-                                    (0xffu << spare_bits));  // what lies right of the picture
+    // Clears the bits to the right of the picture.
+    file.back() = static_cast<char>(static_cast<unsigned char>(file.back()) & (0xffu << spare_bits));
   }
   write_file_atomically(path, file);
 }

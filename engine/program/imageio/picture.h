@@ -1,5 +1,5 @@
-// Writing pictures and planes to files. PPM, PGM, PBM and raw are written right here; every other format by
-// the module libtessera_imageio, which is loaded when first needed.
+// Reads and writes pictures and planes as files. PPM, PGM, PFM, PBM and raw are written here; every other
+// format is written by the module libtessera_imageio, which is loaded on first use.
 #pragma once
 
 #include <cstdint>
@@ -12,53 +12,51 @@
 
 namespace tessera::program {
 
-/// RGBA, 8 bits each, rows from the top without gaps.
+/// RGBA, 8 bits per component, rows from the top without gaps.
 struct Picture {
   Picture(int width, int height);
 
   int width, height;
-  int channels = 4;  ///< that its file has: 1 is luminance, 2 luminance and alpha, 3 red green blue
+  int channels = 4;  ///< of the file: 1 is luminance, 2 luminance and alpha, 3 RGB, 4 RGBA
   std::vector<std::uint8_t> rgba;
 
-  /// For Renderer::finish and FrameBuffer::read_color.
+  /// Target for Renderer::finish() and FrameBuffer::read_color().
   ImageTarget target();
 };
 
-/// A picture of palette entries or greys: as few bits a pixel as it has.
+/// A palette or grey picture of few bits per pixel.
 struct IndexedPicture {
-  int width = 0, height = 0, bits = 8;  ///< 1, 2, 4 or 8
-  std::vector<std::uint8_t> indices;    ///< one a pixel, rows from the top
-  std::vector<std::uint8_t> palette;    ///< r g b of each entry; empty: greys from black to white
+  int width = 0, height = 0;
+  int bits = 8;                       ///< per pixel: 1, 2, 4 or 8
+  std::vector<std::uint8_t> indices;  ///< one per pixel, rows from the top
+  std::vector<std::uint8_t> palette;  ///< r g b per entry; empty: greys from black to white
 };
 
 constexpr int kDefaultCompression = -1;
 
-/// Writes a picture in the format of the path's ending: .ppm (24 bits), .pgm (luminance), .pfm (floats, 1 is
-/// full), .raw (RGBA as it is), .png and whatever else OpenImageIO writes. An existing file is replaced as a
-/// whole, or stays as it was.
+/// Writes a picture in the format of the path's extension: .ppm (24 bits), .pgm (luminance), .pfm (floats, 1
+/// is full intensity), .raw (RGBA bytes), .png, and every other format of OpenImageIO. An existing file is
+/// either replaced as a whole or stays as it was.
 /// @param compression  of PNG, 0 .. 9
-/// @throws Error, naming the path, for an unknown format, a missing module, or a file that cannot be written.
+/// @throws Error, naming the path, for an unknown format, a missing module, or a file that cannot be written
 void write_picture(const Picture& picture, const std::string& path, int compression = kDefaultCompression);
 
-/// For who needs long to make the picture: require_writable() of its file, in a format that write_picture()
-/// knows.
+/// Checks, before expensive work, that write_picture() can succeed: that it knows the format, and
+/// require_writable().
 std::optional<std::filesystem::path> require_writable_picture(const std::string& path);
 
-/// Writes a PNG of that many bits a pixel.
+/// Writes a PNG file of picture.bits per pixel.
 void write_indexed_png(const IndexedPicture& picture, const std::string& path,
                        int compression = kDefaultCompression);
 
-/// Is it a PNG that says, before its pixels, that these functions wrote it?
-bool is_tessera_png(const std::string& path);
-
-/// A file's bytes as binary PPM.
+/// Returns the bytes of a binary PPM file.
 std::string encode_ppm(const Picture& picture);
 
-/// Reads an image of 8 bits a component: .ppm by itself, every other format through the module.
-/// @throws Error, naming the path.
+/// Reads an image of 8 bits per component: .ppm directly, every other format through the module.
+/// @throws Error, naming the path
 Picture read_picture(const std::string& path);
 
-/// The endings that are written without the module, and with it.
+/// Return the file name extensions that are written without the module, and with it.
 std::vector<std::string> builtin_extensions();
 std::vector<std::string> module_extensions();
 

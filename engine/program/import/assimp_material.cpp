@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <iterator>
 #include <optional>
 #include <string_view>
@@ -14,7 +12,7 @@ namespace tessera::program {
 namespace {
 
 constexpr float kMaxShininess = 16384;
-constexpr float kDielectricReflectance = 0.04f;  // what glass and plastics reflect head-on
+constexpr float kDielectricReflectance = 0.04f;  // glass and plastics, at normal incidence
 
 std::optional<Color> color(const aiMaterial& from, const char* key, unsigned type, unsigned index) {
   aiColor4D c;
@@ -28,7 +26,7 @@ std::optional<float> number(const aiMaterial& from, const char* key, unsigned ty
   return x;
 }
 
-// Black, or what assimp's readers write where the format does not know ambient colours.
+// Black, or the value that assimp's readers write for formats without ambient colours.
 bool is_placeholder(const Color& c) {
   return (c.r <= 0 && c.g <= 0 && c.b <= 0) || (c.r == 0.05f && c.g == 0.05f && c.b == 0.05f);
 }
@@ -49,7 +47,7 @@ Material phong_material(const aiMaterial& from, int model) {
   material.emission = emission(from);
   const float shininess = number(from, AI_MATKEY_SHININESS).value_or(0);
   const bool has_highlight = shininess > 0 && model != aiShadingMode_Gouraud &&
-                             model != aiShadingMode_Flat;  // an exponent of 0 would shine everywhere
+                             model != aiShadingMode_Flat;  // exponent 0: a highlight on the whole surface
   if (has_highlight) {
     material.specular = color(from, AI_MATKEY_COLOR_SPECULAR).value_or(material.specular);
     material.shininess = std::min(shininess, kMaxShininess);
@@ -65,9 +63,9 @@ float blinn_exponent(float roughness) {
 }
 
 Material metallic_roughness_material(const aiMaterial& from, const Color& base) {
-  const auto factor = [&](std::optional<float> x) { return std::clamp(x.value_or(1), 0.0f, 1.0f); };
-  const float metal = factor(number(from, AI_MATKEY_METALLIC_FACTOR)),
-              rough = factor(number(from, AI_MATKEY_ROUGHNESS_FACTOR));
+  const auto factor = [](std::optional<float> x) { return std::clamp(x.value_or(1), 0.0f, 1.0f); };
+  const float metal = factor(number(from, AI_MATKEY_METALLIC_FACTOR));
+  const float rough = factor(number(from, AI_MATKEY_ROUGHNESS_FACTOR));
   const auto specular_reflectance = [&](float b) {
     return (kDielectricReflectance * (1 - metal) + b * metal) * roughness_attenuation(rough);
   };
@@ -113,21 +111,6 @@ bool has_color_texture(const aiMaterial& from) {
                                        aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR};
   return std::any_of(std::begin(kColors), std::end(kColors),
                      [&](aiTextureType type) { return from.GetTextureCount(type) > 0; });
-}
-
-std::vector<std::string> textures_of(const aiMaterial& from) {
-  std::vector<std::string> names;
-  for (unsigned i = 0; i < from.mNumProperties; ++i) {
-    const aiMaterialProperty& property = *from.mProperties[i];
-    std::uint32_t length = 0;  // what stands before the characters; a zero stands behind them
-    if (property.mType != aiPTI_String || property.mDataLength <= sizeof length ||
-        std::string_view(property.mKey.C_Str()) != _AI_MATKEY_TEXTURE_BASE)
-      continue;
-    std::memcpy(&length, property.mData, sizeof length);
-    names.emplace_back(property.mData + sizeof length,
-                       std::min<std::size_t>(length, property.mDataLength - sizeof length - 1));
-  }
-  return names;
 }
 
 bool is_transparent(const aiMaterial& from) {

@@ -1,16 +1,13 @@
-// Materials of files as Phong's terms. Physically based ones (glTF 2), with base colour b, metalness m and
-// roughness r, become
+// Converts materials of model files to the terms of Phong's model. Physically based materials (glTF 2) with
+// base colour b, metalness m and roughness r become
 //   diffuse   = ambient = b
-//   specular  = (0.04 (1 - m) + b m) / (1 + 4 r^2)     what mirrors in all directions is spread by roughness
-//   shininess = 2 / r^4 - 2, within 1 .. 1024          Blinn's exponent of that roughness (alpha = r^2)
-//   emission  = the emissive factor; none where a picture says how much of it shines where
-// With KHR_materials_pbrSpecularGlossiness, diffuse and specular are given, and r = 1 - glossiness; what is
-// unlit only emits b. Ambient colours that a format does not know (black, or what assimp's readers put there)
-// are the diffuse ones.
+//   specular  = (0.04 (1 - m) + b m) / (1 + 4 r^2)     roughness spreads the reflection
+//   shininess = 2 / r^4 - 2, clamped to 1 .. 1024      Blinn's exponent for that roughness (alpha = r^2)
+//   emission  = the emissive factor; black if a texture modulates it
+// KHR_materials_pbrSpecularGlossiness gives diffuse and specular directly, and r = 1 - glossiness. Unlit
+// materials only emit b. Ambient colours that a format lacks (black, or assimp's placeholder) are set to the
+// diffuse colour.
 #pragma once
-
-#include <string>
-#include <vector>
 
 #include <assimp/material.h>
 
@@ -20,11 +17,9 @@ namespace tessera::program {
 
 Material material_of(const aiMaterial& from);
 
-/// Whether its colours are meant to come from a picture.
+/// Returns whether a texture supplies the material's colours.
 bool has_color_texture(const aiMaterial& from);
-/// The names of all its pictures, whatever they are for.
-std::vector<std::string> textures_of(const aiMaterial& from);
-/// Whether something is meant to be seen through it.
+/// Returns whether the material is meant to be translucent.
 bool is_transparent(const aiMaterial& from);
 
 }  // namespace tessera::program

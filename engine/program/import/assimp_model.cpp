@@ -14,21 +14,21 @@ namespace {
 
 constexpr int kMaxNodeDepth = 500;
 
-// Some readers leave colours at 0, or at -1, where a file has none.
+// Some of assimp's readers fill in 0 or -1 if a file has no vertex colours.
 bool has_vertex_colors(const aiMesh& mesh) {
-  bool gives = false;
+  bool any_positive = false;
   for (unsigned v = 0; v < mesh.mNumVertices && mesh.HasVertexColors(0); ++v) {
     const aiColor4D& c = mesh.mColors[0][v];
     if (!(c.r >= 0 && c.g >= 0 && c.b >= 0 && c.a >= 0)) return false;
-    gives |= c.r > 0 || c.g > 0 || c.b > 0 || c.a > 0;
+    any_positive |= c.r > 0 || c.g > 0 || c.b > 0 || c.a > 0;
   }
-  return gives;
+  return any_positive;
 }
 
-/// All nodes of a scene, in world space, as one mesh.
+/// Merges the meshes of all nodes of a scene, in world space, into one mesh.
 class Converter {
  public:
-  /// @param with_view  also cameras and lights
+  /// @param with_view  also converts cameras and lights
   Converter(const aiScene& scene, bool with_view, bool is_collada)
       : scene_(scene),
         with_view_(with_view),
@@ -45,7 +45,8 @@ class Converter {
 
   Model converted() {
     if (scene_.mRootNode != nullptr) visit(*scene_.mRootNode, aiMatrix4x4(), 0);
-    int textures = 0, transparent = 0;
+    int textures = 0;
+    int transparent = 0;
     for (const auto& [material, indices] : by_material_) {
       if (indices.empty()) continue;
       add_part(material, indices);
@@ -54,15 +55,12 @@ class Converter {
       transparent += is_transparent(*scene_.mMaterials[material]) ? 1 : 0;
     }
     if (model_.parts.empty()) throw Error(std::string(kHoldsNoTriangle));
-    for (unsigned m = 0; m < scene_.mNumMaterials; ++m)
-      for (const std::string& name : textures_of(*scene_.mMaterials[m]))
-        if (scene_.GetEmbeddedTexture(name.c_str()) == nullptr) model_.files.push_back(name);
     if (textures > 0)
-      model_.warnings.push_back("textures of models are not supported: materials with one, " +
-                                std::to_string(textures) + " here, keep their plain colours");
+      model_.warnings.push_back("textures of models are not supported: " + std::to_string(textures) +
+                                " materials with one keep their plain colours");
     if (transparent > 0)
-      model_.warnings.push_back("transparency is not supported: materials with it, " +
-                                std::to_string(transparent) + " here, are drawn opaque");
+      model_.warnings.push_back("transparency is not supported: " + std::to_string(transparent) +
+                                " transparent materials are drawn opaque");
     return std::move(model_);
   }
 
@@ -73,7 +71,7 @@ class Converter {
     const aiMatrix4x4 world = parent * node.mTransformation;
     for (unsigned m = 0; m < node.mNumMeshes; ++m) {
       if (node.mMeshes[m] >= scene_.mNumMeshes)
-        throw Error("a node names mesh " + std::to_string(node.mMeshes[m]) + " of " +
+        throw Error("a node refers to mesh " + std::to_string(node.mMeshes[m]) + ", there are " +
                     std::to_string(scene_.mNumMeshes));
       add_mesh(node.mMeshes[m], world);
     }
@@ -81,7 +79,7 @@ class Converter {
     for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], world, depth + 1);
   }
 
-  // Cameras and lights belong to the nodes of their names; where two nodes share a name, each takes one.
+  // assimp links cameras and lights to nodes by name. If nodes share a name, each takes the next unused one.
   void add_view(const aiNode& node, const aiMatrix4x4& world) {
     for (unsigned i = 0; i < scene_.mNumCameras; ++i)
       if (!camera_used_[i] && scene_.mCameras[i]->mName == node.mName) {
@@ -118,16 +116,16 @@ class Converter {
     add_triangles(mesh, first, mirrors);
   }
 
-  // Colours of vertices are factors of the material's; with them, the colour is all in the vertices.
-  void add_color(const aiMesh& mesh, bool gives, unsigned vertex) {
+  // Vertex colours are factors of the material's colour, so their product is stored per vertex.
+  void add_color(const aiMesh& mesh, bool has_colors, unsigned vertex) {
     const Color base = mesh.mMaterialIndex < materials_.size() ? materials_[mesh.mMaterialIndex].diffuse
                                                                : Material{}.diffuse;
-    const aiColor4D c = gives ? mesh.mColors[0][vertex] : aiColor4D(1, 1, 1, 1);
+    const aiColor4D c = has_colors ? mesh.mColors[0][vertex] : aiColor4D(1, 1, 1, 1);
     model_.mesh.colors.insert(model_.mesh.colors.end(),
                               {c.r * base.r, c.g * base.g, c.b * base.b, c.a * base.a});
   }
 
-  // t grows upwards whatever the format has: assimp turns v over where that is needed.
+  // assimp flips v where the format requires it, so t always grows upwards.
   void add_texcoords(const aiMesh& mesh, unsigned vertex) {
     const aiVector3D at = mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][vertex] : aiVector3D();
     model_.mesh.texcoords.insert(model_.mesh.texcoords.end(), {at.x, at.y});
@@ -140,7 +138,7 @@ class Converter {
       if (face.mNumIndices != 3) continue;
       for (const unsigned k : {0u, mirrors ? 2u : 1u, mirrors ? 1u : 2u}) {
         if (face.mIndices[k] >= mesh.mNumVertices)
-          throw Error("a triangle names vertex " + std::to_string(face.mIndices[k]) + " of " +
+          throw Error("a triangle refers to vertex " + std::to_string(face.mIndices[k]) + ", there are " +
                       std::to_string(mesh.mNumVertices));
         indices.push_back(first + face.mIndices[k]);
       }
@@ -162,10 +160,15 @@ class Converter {
   }
 
   const aiScene& scene_;
-  bool with_view_, is_collada_, has_colors_ = false, has_texcoords_ = false;
-  std::vector<bool> mesh_has_colors_, camera_used_, light_used_;  // of each mesh, camera, light
+  bool with_view_;
+  bool is_collada_;
+  bool has_colors_ = false;
+  bool has_texcoords_ = false;
+  std::vector<bool> mesh_has_colors_;
+  std::vector<bool> camera_used_;
+  std::vector<bool> light_used_;
   std::vector<Material> materials_;
-  std::map<unsigned, std::vector<std::uint32_t>> by_material_;
+  std::map<unsigned, std::vector<std::uint32_t>> by_material_;  // triangles' vertex indices
   Model model_;
 };
 

@@ -1,4 +1,4 @@
-// What becomes of a scene that assimp read.
+// Converts a scene that assimp has read to a Model.
 #pragma once
 
 #include <string_view>
@@ -11,11 +11,10 @@ namespace tessera::program {
 
 inline constexpr std::string_view kHoldsNoTriangle = "holds no triangle";
 
-/// All nodes of a scene, in world space, as one mesh, a part for each material; normals that are missing are
-/// 0 0 0, and `files` are names, from the folder of the model.
-/// @param with_view   also cameras and lights
-/// @param is_collada  angles mean something else there
-/// @throws Error for indices out of bounds, nodes nested too deeply, and where no triangle is left.
+/// Merges all nodes, in world space, into one mesh with one part per material. Missing normals are 0 0 0.
+/// @param with_view   also converts cameras and lights
+/// @param is_collada  assimp reports angles of cameras and spots differently for Collada
+/// @throws Error for indices out of bounds, nodes nested too deeply, or a scene without triangles.
 Model model_of(const aiScene& scene, bool with_view, bool is_collada);
 
 }  // namespace tessera::program

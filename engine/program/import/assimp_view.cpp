@@ -22,10 +22,11 @@ double tangent(double degrees) {
   return at.sine / at.cosine;
 }
 
-// mHorizontalFOV is the whole angle in radians, though its comment says half of it. False: it is no angle.
+// Sets the angle of view; returns false if the file gives no valid one. mHorizontalFOV is the full angle in
+// radians, although assimp's header documents it as the half angle.
 bool set_angle(const aiCamera& camera, bool is_collada, ModelCamera& to) {
   const bool has_aspect = camera.mAspect > 0;
-  if (is_collada && !has_aspect) {  // the file gives no angle, and what is there is none
+  if (is_collada && !has_aspect) {  // the file gives no angle; assimp's value is meaningless
     to.half_height = tangent(kStandardFovy / 2);
     return true;
   }
@@ -37,26 +38,32 @@ bool set_angle(const aiCamera& camera, bool is_collada, ModelCamera& to) {
 }
 
 void set_attenuation(const aiLight& light, bool is_collada, Light& to) {
-  const float c = std::max(light.mAttenuationConstant, 1.0f), l = light.mAttenuationLinear,
-              q = light.mAttenuationQuadratic;
-  const bool is_said = is_collada || !(l == 1 && q == 0);  // a linear 1 alone is what assimp starts from
-  if (!is_said || !(l >= 0 && q >= 0) || !std::isfinite(c + l + q)) return;
-  to.attenuation_constant = c;
-  to.attenuation_linear = l;
-  to.attenuation_quadratic = q;
+  const float constant = std::max(light.mAttenuationConstant, 1.0f);
+  const float linear = light.mAttenuationLinear;
+  const float quadratic = light.mAttenuationQuadratic;
+  const bool is_assimp_default = linear == 1 && quadratic == 0;
+  const bool is_given = is_collada || !is_assimp_default;
+  const bool is_valid = linear >= 0 && quadratic >= 0 && std::isfinite(constant + linear + quadratic);
+  if (!is_given || !is_valid) return;
+  to.attenuation_constant = constant;
+  to.attenuation_linear = linear;
+  to.attenuation_quadratic = quadratic;
 }
 
 }  // namespace
 
 std::optional<ModelCamera> camera_of(const aiCamera& camera, const aiMatrix4x4& world, bool is_collada) {
-  const aiVector3D eye = world * camera.mPosition, target = world * (camera.mPosition + camera.mLookAt),
-                   up = aiMatrix3x3(world) * camera.mUp;
+  const aiVector3D eye = world * camera.mPosition;
+  const aiVector3D target = world * (camera.mPosition + camera.mLookAt);
+  const aiVector3D up = aiMatrix3x3(world) * camera.mUp;
   ModelCamera to{.near = camera.mClipPlaneNear, .far = camera.mClipPlaneFar};
   to.is_orthographic = camera.mOrthographicWidth > 0 && std::isfinite(camera.mOrthographicWidth);
-  if (to.is_orthographic)
-    (camera.mAspect > 0 ? to.half_height : to.half_width) =
-        camera.mOrthographicWidth / (camera.mAspect > 0 ? camera.mAspect : 1);
-  else if (!set_angle(camera, is_collada, to)) return {};
+  if (to.is_orthographic) {
+    if (camera.mAspect > 0) to.half_height = camera.mOrthographicWidth / camera.mAspect;
+    else to.half_width = camera.mOrthographicWidth;
+  } else if (!set_angle(camera, is_collada, to)) {
+    return {};
+  }
   try {
     to.view = look_at({eye.x, eye.y, eye.z}, {target.x, target.y, target.z}, {up.x, up.y, up.z});
   } catch (const Error&) {
@@ -82,7 +89,7 @@ void add_light(const aiLight& light, const aiMatrix4x4& world, bool is_collada, 
     case aiLightSource_DIRECTIONAL: to.position = {-direction.x, -direction.y, -direction.z, 0}; break;
     case aiLightSource_SPOT: {
       to.spot_direction = {direction.x, direction.y, direction.z};
-      // The outer angle of Collada is made up by assimp; its falloff angle is the inner one.
+      // For Collada, assimp stores the falloff angle as the inner cone and invents the outer one.
       const double cutoff = is_collada ? light.mAngleInnerCone : light.mAngleOuterCone;
       to.spot_cutoff =
           cutoff >= std::numbers::pi ? 180 : static_cast<float>(std::clamp(cutoff * kDegrees, 0.0, 90.0));

@@ -1,4 +1,4 @@
-// Cameras and lights as assimp gives them: of every format but glTF 2 (gltf_view.h).
+// Converts cameras and lights that assimp has read; those of glTF 2 come from gltf_view.h.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,14 @@
 
 namespace tessera::program {
 
-/// None for a camera without direction or angle.
-/// @param world  of the camera's node
+/// Returns nothing for a camera without a direction or an angle of view.
+/// @param world  transform of the camera's node
 std::optional<ModelCamera> camera_of(const aiCamera& camera, const aiMatrix4x4& world, bool is_collada);
 
-/// Adds a light to the model; those that give no light or are of a kind that Tessera has not are left out,
-/// the latter with a warning. They shine with their colour, scaled to at most 1, and their attenuation never
-/// brightens.
+/// Adds a light to the model.
+/// - Black lights are left out; so are unsupported kinds, with a warning.
+/// - Colours are scaled to at most 1.
+/// - The constant attenuation is at least 1, so that attenuation never brightens.
 void add_light(const aiLight& light, const aiMatrix4x4& world, bool is_collada, Model& model);
 
 }  // namespace tessera::program

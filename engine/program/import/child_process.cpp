@@ -23,10 +23,10 @@
 namespace tessera::program {
 namespace {
 
-// What a child sends first.
+// Precedes the bytes of the result or of the error message.
 struct Header {
   enum Kind : std::uint64_t { result, error, no_memory } kind;
-  std::uint64_t bytes;  // that follow
+  std::uint64_t bytes;  // payload size
 };
 
 void write_all(int to, const char* bytes, std::size_t count) {
@@ -39,9 +39,9 @@ void write_all(int to, const char* bytes, std::size_t count) {
   }
 }
 
-// The sanitizers reserve terabytes: no limit there.
+// Sanitizers reserve terabytes of address space, so their builds have no limit.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// Bytes that this process has mapped: the first number of statm, in pages.
+// Bytes mapped by this process: the first field of statm, in pages.
 std::size_t address_space() {
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -58,14 +58,15 @@ void limit_memory(std::size_t) {}
 
 [[noreturn]] void run_child(int to, pid_t parent, const ChildLimits& limits,
                             const std::function<std::string()>& work) {
-  // Libraries may print; nobody asked them to.
+  // Silences libraries that print.
   if (const int nowhere = ::open("/dev/null", O_RDWR); nowhere >= 0)
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, standard);
   if (std::signal(SIGINT, SIG_DFL) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(0);  // it ended before that
+  if (::getppid() != parent) ::_exit(0);  // the parent ended before prctl()
   const auto seconds = static_cast<rlim_t>(limits.time.count() / 1000 + 1);
-  const rlimit time{seconds, seconds + 1}, no_core{0, 0};
+  const rlimit time{seconds, seconds + 1};
+  const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CPU, &time);
   ::setrlimit(RLIMIT_CORE, &no_core);
   limit_memory(limits.memory_bytes);
@@ -81,7 +82,7 @@ void limit_memory(std::size_t) {}
   } catch (const std::exception& error) {
     send(Header::error, error.what());
   } catch (...) {
-    send(Header::error, "an exception of no known kind");
+    send(Header::error, "an exception of unknown type");
   }
   ::_exit(0);
 }
@@ -111,7 +112,7 @@ ReadStatus read_all(int from, Clock::time_point end, const std::function<bool()>
 
 std::string mebibytes(std::size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
 
-// A pipe whose ends are none of the standard streams, even where those are closed.
+// Opens a pipe whose ends are not file descriptors 0 to 2, even if those are closed.
 bool make_pipe(int (&ends)[2]) {
   int low[2];
   if (::pipe2(low, O_CLOEXEC) != 0) return false;
@@ -125,7 +126,7 @@ bool make_pipe(int (&ends)[2]) {
   return false;
 }
 
-// A child that is no longer needed ends now, and leaves nothing behind.
+// Kills and reaps the child process on destruction.
 class Child {
  public:
   explicit Child(pid_t id, int from) : id_(id), from_(from) {}
@@ -154,9 +155,10 @@ std::string run_in_child(const std::string& what, const ChildLimits& limits,
                          const std::function<std::string()>& work) {
   int ends[2];
   if (!make_pipe(ends))
-    throw Error(what + ": cannot make a pipe to a process of its own: " + std::strerror(errno));
+    throw Error(what + ": cannot create a pipe to a child process: " + std::strerror(errno));
   std::fflush(nullptr);
-  const pid_t parent = ::getpid(), id = ::fork();
+  const pid_t parent = ::getpid();
+  const pid_t id = ::fork();
   if (id == 0) {
     ::close(ends[0]);
     run_child(ends[1], parent, limits, work);
@@ -164,7 +166,7 @@ std::string run_in_child(const std::string& what, const ChildLimits& limits,
   const int reason = errno;
   ::close(ends[1]);
   Child child(id, ends[0]);
-  if (id < 0) throw Error(what + ": cannot start a process of its own: " + std::strerror(reason));
+  if (id < 0) throw Error(what + ": cannot start a child process: " + std::strerror(reason));
 
   const Clock::time_point end = Clock::now() + limits.time;
   Header header{};
@@ -173,8 +175,8 @@ std::string run_in_child(const std::string& what, const ChildLimits& limits,
       read_all(ends[0], end, limits.should_continue, reinterpret_cast<char*>(&header), sizeof header);
   if (read == ReadStatus::all) {
     if (header.bytes > limits.result_bytes)
-      throw Error(what + " gives " + mebibytes(header.bytes) + ", at most " + mebibytes(limits.result_bytes) +
-                  " are taken");
+      throw Error(what + " gives " + mebibytes(header.bytes) + ", must be at most " +
+                  mebibytes(limits.result_bytes));
     bytes.resize(header.bytes);
     read = read_all(ends[0], end, limits.should_continue, bytes.data(), bytes.size());
   }
@@ -183,10 +185,11 @@ std::string run_in_child(const std::string& what, const ChildLimits& limits,
     throw Error(what + " took more than " + std::to_string(limits.time.count() / 1000) +
                 " seconds; given up");
   if (read == ReadStatus::ended) {
-    const int status = child.wait(), signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    const int status = child.wait();
+    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (signal == SIGINT) throw Cancelled(what + " was interrupted");
     if (signal == SIGXCPU || signal == SIGKILL) throw Error(what + " took too much time or memory; given up");
-    throw Error(what + " broke down: the file is damaged, or of a kind that its reader cannot stand");
+    throw Error(what + " crashed: the file is damaged, or its reader does not support it");
   }
   if (header.kind == Header::no_memory)
     throw Error(what + " takes more than " + mebibytes(limits.memory_bytes) + " of memory; given up");

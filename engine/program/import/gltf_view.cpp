@@ -1,7 +1,6 @@
 #include "engine/program/import/gltf_view.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -25,7 +24,8 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr int kMaxNodeDepth = 500;
 constexpr int kMaxNodeVisits = 1000000;
 
-// The text of a .gltf, or the first chunk of a .glb: "glTF", version, length, length of the chunk, "JSON".
+// Returns the text of a .gltf, or the first chunk of a .glb, whose header is the five words "glTF", version,
+// file length, chunk length, "JSON".
 std::string json_text(const std::string& bytes) {
   if (!bytes.starts_with("glTF")) return bytes;
   std::uint32_t header[5] = {};
@@ -48,8 +48,8 @@ Matrix local_matrix(const Json& node) {
     for (std::size_t k = 0; k < 16; ++k) m.m[k] = columns[4 * (k % 4) + k / 4];
     return m;
   }
-  const auto t = node.value("translation", std::array<double, 3>{0, 0, 0}),
-             s = node.value("scale", std::array<double, 3>{1, 1, 1});
+  const auto t = node.value("translation", std::array<double, 3>{0, 0, 0});
+  const auto s = node.value("scale", std::array<double, 3>{1, 1, 1});
   const auto r = node.value("rotation", std::array<double, 4>{0, 0, 0, 1});
   return translate(t[0], t[1], t[2]) * from_quaternion(r[0], r[1], r[2], r[3]) * scale(s[0], s[1], s[2]);
 }
@@ -58,8 +58,8 @@ struct NoSuchElement : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What an index names; `kind` is what the list is of. (nlohmann would cast any number to std::size_t, and one
-// that does not fit has no defined result.)
+// Returns list[index]; `kind` names the elements in the message. nlohmann would cast any number to
+// std::size_t, which is undefined for numbers out of range.
 const Json& element(const Json& list, const Json& index, const char* kind) {
   if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= list.size())
     throw NoSuchElement("found " + (index.is_number() ? index.dump() : index.type_name()) +
@@ -81,7 +81,7 @@ class ViewReader {
   }
 
  private:
-  // Of a node or scene; nothing is copied, because copies of JSON recurse.
+  // `owner` is a node or a scene. Takes references only: copying nested JSON recurses.
   void visit_all(const Json& owner, const char* list, const Matrix& parent, int depth) {
     if (owner.is_object() && !owner.contains(list)) return;
     for (const Json& index : owner.at(list).get_ref<const Json::array_t&>())
@@ -90,7 +90,8 @@ class ViewReader {
 
   void visit(const Json& node, const Matrix& parent, int depth) {
     if (depth > kMaxNodeDepth || ++visits_ > kMaxNodeVisits)
-      throw Error("its nodes are too many, or nested too deeply");
+      throw Error("has more than " + std::to_string(kMaxNodeVisits) + " nodes, or nodes nested deeper than " +
+                  std::to_string(kMaxNodeDepth) + " levels");
     const Matrix world = parent * local_matrix(node);
     if (node.contains("camera"))
       add_camera(element(file_.at("cameras"), node.at("camera"), "cameras"), world);
@@ -108,23 +109,24 @@ class ViewReader {
       to.half_height = std::abs(lens.value("ymag", 0.0));
     } else {
       const double angle = lens.value("yfov", 0.0);
-      if (!(angle > 0 && angle < std::numbers::pi)) return leave_out(angle);
+      if (!(angle > 0 && angle < std::numbers::pi)) return warn_of_angle(angle);
       const SinCos half = sin_cos_degrees(angle / 2 * kDegrees);
       to.half_height = half.sine / half.cosine;
     }
     if (!(to.half_height > 0) || !std::isfinite(to.half_height)) return;
-    const Vec3 eye = column(world, 3), back = column(world, 2);
+    const Vec3 eye = column(world, 3);
+    const Vec3 back = column(world, 2);
     try {
       to.view = look_at(eye, {eye.x - back.x, eye.y - back.y, eye.z - back.z}, column(world, 1));
     } catch (const Error&) {
-      return;  // a node that is squeezed flat has no direction
+      return;  // a node scaled to zero has no direction
     }
     model_.cameras.push_back(to);
   }
 
-  // The first of them is told.
-  void leave_out(double angle) {
-    if (!std::exchange(is_told_, true))
+  // Warns once per file.
+  void warn_of_angle(double angle) {
+    if (!std::exchange(has_warned_, true))
       model_.warnings.push_back("a perspective camera is left out: found an angle of " + Json(angle).dump() +
                                 ", expected one between 0 and pi");
   }
@@ -135,7 +137,8 @@ class ViewReader {
     Light to;
     to.diffuse = to.specular = {static_cast<float>(color[0] * unit), static_cast<float>(color[1] * unit),
                                 static_cast<float>(color[2] * unit), 1};
-    const Vec3 place = column(world, 3), back = column(world, 2);
+    const Vec3 place = column(world, 3);
+    const Vec3 back = column(world, 2);
     const auto& type = light.at("type").get_ref<const std::string&>();
     if (type == "directional") {
       to.position = {static_cast<float>(back.x), static_cast<float>(back.y), static_cast<float>(back.z), 0};
@@ -146,8 +149,8 @@ class ViewReader {
       to.attenuation_quadratic = 1;
     }
     if (type == "spot") {
-      const double inner = light.value("/spot/innerConeAngle"_json_pointer, 0.0),
-                   outer = light.value("/spot/outerConeAngle"_json_pointer, std::numbers::pi / 4);
+      const double inner = light.value("/spot/innerConeAngle"_json_pointer, 0.0);
+      const double outer = light.value("/spot/outerConeAngle"_json_pointer, std::numbers::pi / 4);
       to.spot_direction = {static_cast<float>(-back.x), static_cast<float>(-back.y),
                            static_cast<float>(-back.z)};
       to.spot_cutoff = static_cast<float>(std::clamp(outer * kDegrees, 0.0, 90.0));
@@ -161,37 +164,13 @@ class ViewReader {
       model_.lights.push_back(to);
   }
 
-  const Json::json_pointer light_{"/extensions/KHR_lights_punctual/light"},
-      lights_{"/extensions/KHR_lights_punctual/lights"};
+  const Json::json_pointer light_{"/extensions/KHR_lights_punctual/light"};
+  const Json::json_pointer lights_{"/extensions/KHR_lights_punctual/lights"};
   const Json& file_;
   Model& model_;
   int visits_ = 0;
-  bool is_told_ = false;
+  bool has_warned_ = false;
 };
-
-// "%20" is a space.
-std::string decoded(const std::string& uri) {
-  std::string name;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const char* const digits = uri.data() + i + 1;
-    unsigned byte = 0;
-    const bool is_coded = uri[i] == '%' && i + 2 < uri.size() &&
-                          std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
-    name += is_coded ? static_cast<char>(byte) : uri[i];
-    if (is_coded) i += 2;
-  }
-  return name;
-}
-
-void add_files(const Json& file, Model& model) {
-  for (const char* list : {"buffers", "images"}) {
-    if (!file.contains(list)) continue;
-    for (const Json& entry : file.at(list)) {
-      const auto* const uri = entry.contains("uri") ? entry.at("uri").get_ptr<const std::string*>() : nullptr;
-      if (uri != nullptr && !uri->starts_with("data:")) model.files.push_back(decoded(*uri));
-    }
-  }
-}
 
 }  // namespace
 
@@ -206,9 +185,8 @@ bool add_gltf_view_of_bytes(const std::string& bytes, Model& model) {
   if (!file.contains(place)) return false;
   const Json& version = file.at(place);
   if (!version.is_string() || !version.get_ref<const std::string&>().starts_with("2")) return false;
-  add_files(file, model);
   const auto warn = [&model](const std::exception& error) {
-    model.warnings.push_back("its cameras and lights cannot all be read: " + std::string(error.what()));
+    model.warnings.push_back("not all of its cameras and lights could be read: " + std::string(error.what()));
   };
   try {
     ViewReader(file, model).read();

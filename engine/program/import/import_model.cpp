@@ -1,10 +1,9 @@
-// Who reads which file, and where: in a child.
+// Selects the reader of a model file and runs it in a child process.
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 #include "engine/program/import/child_process.h"
@@ -39,21 +38,6 @@ std::string import_by_module(const std::string& path) {
   }
 }
 
-// Where files may be that a model's file names: a backslash mostly is a slash, and Blender's "//" is the
-// folder of the model.
-std::vector<std::string> paths_of(const std::vector<std::string>& names, const fs::path& folder) {
-  constexpr std::size_t kMaxPaths = 100000, kMaxNameLength = 4096;
-  std::set<std::string> paths;
-  for (std::string name : names) {
-    if (name.empty() || name.size() > kMaxNameLength || paths.size() >= kMaxPaths) continue;
-    paths.insert((folder / name).string());
-    std::replace(name.begin(), name.end(), '\\', '/');
-    paths.insert((folder / name).string());
-    if (name.starts_with("//")) paths.insert((folder / name.substr(2)).string());
-  }
-  return {paths.begin(), paths.end()};
-}
-
 }  // namespace
 
 Model import_model(const std::string& path, ModelUse use, const std::function<bool()>& should_continue) {
@@ -64,7 +48,7 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
     throw Error("cannot read \"" + path + "\": " + (error ? error.message() : std::strerror(ENOENT)));
   if (!fs::is_regular_file(status))
     throw Error("cannot read \"" + path + "\": it is " +
-                (fs::is_directory(status) ? "a directory" : "no regular file") + ", expected a model");
+                (fs::is_directory(status) ? "a directory" : "not a regular file") + ", expected a model");
   if (!std::ifstream(path)) throw Error("cannot read \"" + path + "\": " + std::strerror(errno));
   const auto read = [&] {
     Model model = lower_case_extension(path) == ".obj" ? import_obj(path)
@@ -73,7 +57,6 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
       if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
       orient_by_normals(model.mesh);
     }
-    model.files = paths_of(model.files, fs::path(path).parent_path());
     return to_bytes(model);
   };
   return model_from_bytes(
@@ -88,11 +71,11 @@ std::vector<std::string> model_extensions() {
       return formats(take, user, message, size);
     });
   });
-  std::vector<std::string> endings;
+  std::vector<std::string> extensions;
   std::istringstream stream(list);
-  for (std::string ending; std::getline(stream, ending, ',');) endings.push_back(ending);
-  std::sort(endings.begin(), endings.end());
-  return endings;
+  for (std::string extension; std::getline(stream, extension, ',');) extensions.push_back(extension);
+  std::sort(extensions.begin(), extensions.end());
+  return extensions;
 }
 
 }  // namespace tessera::program

@@ -1,5 +1,5 @@
-// The module libtessera_import: what sees assimp. It runs in a child process, where it may take what it
-// likes.
+// The module libtessera_import: the only code that uses assimp. The program loads it in a child process with
+// limits of time and memory.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -30,35 +30,35 @@ bool contains(const std::string& path, const std::string& word) {
 }
 
 [[noreturn]] void refuse(const std::string& reason) {
-  if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // assimp caught it
+  if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // caught inside assimp
   throw Error(reason == "No meshes remaining" ? std::string(kHoldsNoTriangle) : reason);
 }
 
 Model read(const std::string& path) {
   Assimp::Importer importer;
-  const std::string ending = lower_case_extension(path);
-  if (ending.empty() || !importer.IsExtensionSupported(ending))
-    throw Error("found the ending \"" + ending + "\", expected one of those that \"tessera formats\" lists");
+  const std::string extension = lower_case_extension(path);
+  if (extension.empty() || !importer.IsExtensionSupported(extension))
+    throw Error("the file name extension is \"" + extension +
+                "\", expected one of those listed by \"tessera formats\"");
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_LINE | aiPrimitiveType_POINT);
   const aiScene* const scene = importer.ReadFile(
       path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
   if (scene == nullptr) refuse(importer.GetErrorString());
   Model view;
-  const bool is_gltf2 = (ending == ".gltf" || ending == ".glb") && add_gltf_view(path, view),
-             is_collada = ending == ".dae" || ending == ".zae";
+  const bool is_gltf2 = (extension == ".gltf" || extension == ".glb") && add_gltf_view(path, view);
+  const bool is_collada = extension == ".dae" || extension == ".zae";
   Model model = model_of(*scene, !is_gltf2, is_collada);
   importer.FreeScene();
-  // assimp takes an orthographic camera of Collada for one of a few degrees.
-  if (ending == ".dae" && !model.cameras.empty() && contains(path, "<orthographic>")) {
+  // assimp reads an orthographic camera of Collada as a perspective of a few degrees.
+  if (extension == ".dae" && !model.cameras.empty() && contains(path, "<orthographic>")) {
     model.cameras.clear();
-    model.warnings.push_back("has an orthographic camera: cameras of such Collada files are left out");
+    model.warnings.push_back("has an orthographic camera: the cameras of such Collada files are left out");
   }
-  // Where glTF 2 gives no normals, faces are flat, by its specification.
+  // glTF 2 specifies flat normals where a file gives none.
   add_creased_normals(model.mesh, is_gltf2 ? 0 : kCreaseDegrees);
   if (is_gltf2) {
     model.cameras = std::move(view.cameras);
     model.lights = std::move(view.lights);
-    model.files.insert(model.files.end(), view.files.begin(), view.files.end());
     model.warnings.insert(model.warnings.end(), view.warnings.begin(), view.warnings.end());
   }
   for (std::string& warning : model.warnings) warning = path + ": " + warning;
@@ -92,7 +92,7 @@ int answer(const Work& work, tessera_import_take_function* take, void* user, cha
 }  // namespace
 }  // namespace tessera::program
 
-extern "C" TESSERA_API int tessera_import_2(const char* path, tessera_import_take_function* take, void* user,
+extern "C" TESSERA_API int tessera_import_3(const char* path, tessera_import_take_function* take, void* user,
                                             char* message, std::size_t message_size) {
   return tessera::program::answer([&] { return tessera::program::to_bytes(tessera::program::read(path)); },
                                   take, user, message, message_size);

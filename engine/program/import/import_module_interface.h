@@ -1,5 +1,5 @@
-/* What the program and the module libtessera_import agree on: C, so that neither needs the other to be
- * linked. */
+/* Interface between the program and the module libtessera_import. It is plain C and loaded at run time, so
+ * that the program does not link assimp. */
 #ifndef TESSERA_ENGINE_IMPORT_IMPORT_MODULE_INTERFACE_H
 #define TESSERA_ENGINE_IMPORT_IMPORT_MODULE_INTERFACE_H
 
@@ -9,22 +9,24 @@
 extern "C" {
 #endif
 
-/* Takes bytes; called once. */
+/* Receives the bytes; called once. */
 typedef void tessera_import_take_function(void* user, const unsigned char* bytes, size_t count);
 
-/* Each function returns 0, or 1 and a reason in `message` (cut to message_size, always ended), or 2: there is
- * not enough memory. */
+/* Each function returns
+ *   0  success
+ *   1  failure; `message` holds the reason, truncated to message_size and always terminated
+ *   2  out of memory */
 
-/* Reads a model file; the bytes are those of model_bytes.h. */
+/* Reads a model file and delivers it in the format of model_bytes.h. */
 typedef int tessera_import_function(const char* path, tessera_import_take_function* take, void* user,
                                     char* message, size_t message_size);
 
-/* The endings of the formats that can be read, with commas between. */
+/* Delivers the file name extensions of the readable formats, separated by commas. */
 typedef int tessera_import_formats_function(tessera_import_take_function* take, void* user, char* message,
                                             size_t message_size);
 
-/* The numbers change with the signatures, and with what the bytes are. */
-#define TESSERA_IMPORT_NAME "tessera_import_2"
+/* The numbers change with the signatures and with the byte format. */
+#define TESSERA_IMPORT_NAME "tessera_import_3"
 #define TESSERA_IMPORT_FORMATS_NAME "tessera_import_formats_1"
 #define TESSERA_IMPORT_FILE_NAME "libtessera_import.so." TESSERA_SOVERSION
 

@@ -13,8 +13,8 @@ std::vector<MeshData> split_into_parts(Model model) {
     return meshes;
   }
   constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> new_index(model.mesh.vertex_count(), kUnused),
-      used;  // used: those to forget after each part
+  std::vector<std::uint32_t> new_index(model.mesh.vertex_count(), kUnused);
+  std::vector<std::uint32_t> used;  // vertices of the current part, reset in new_index after it
   const auto copy = [](const std::vector<float>& from, std::vector<float>& to, std::size_t vertex,
                        std::size_t components) {
     if (!from.empty())

@@ -7,14 +7,14 @@
 namespace tessera::program {
 namespace {
 
-// Numbers without gaps between them: nothing that was never written goes out.
+// Arithmetic types only: they have no padding, so no uninitialized byte is sent.
 template <class T>
 constexpr bool kIsPlain = std::is_arithmetic_v<T>;
 
 template <class T, class U>
 concept SameUnqualified = std::is_same_v<std::remove_const_t<T>, U>;
 
-// Calls the stream for each member.
+// Calls the stream for each member. The same list serves Writer and Reader.
 template <class Stream>
 void visit_members(Stream& stream, SameUnqualified<Color> auto& value);
 template <class Stream>
@@ -77,7 +77,7 @@ class Reader {
     if constexpr (kIsPlain<T>) {
       list(elements);
     } else {
-      // One by one: what a wrong count promises takes no memory.
+      // Elements are appended one by one, so that a wrong count allocates nothing.
       for (std::size_t left = count(1); left > 0; --left) visit_members(*this, elements.emplace_back());
     }
   }
@@ -90,7 +90,7 @@ class Reader {
   void end() const {
     if (at_ != bytes_.size()) fail();
   }
-  [[noreturn]] static void fail() { throw Error("the reading process sent no sound model"); }
+  [[noreturn]] static void fail() { throw Error("the reading process sent an invalid model"); }
 
  private:
   template <class List>
@@ -116,7 +116,6 @@ class Reader {
   std::size_t at_ = 0;
 };
 
-// One list of members for both ways.
 template <class Stream>
 void visit_members(Stream& stream, SameUnqualified<Color> auto& c) {
   stream(c.r), stream(c.g), stream(c.b), stream(c.a);
@@ -165,18 +164,17 @@ void visit_members(Stream& stream, SameUnqualified<Model> auto& model) {
   stream(model.cameras);
   stream(model.lights);
   stream(model.ambient_light);
-  stream(model.files);
 }
 
-bool is_sound(const Model& model) {
+bool is_valid(const Model& model) {
   const MeshData& mesh = model.mesh;
   const std::size_t vertices = mesh.positions.size() / 3;
   const auto fits = [&](const std::vector<float>& list, std::size_t components) {
     return list.empty() || list.size() == components * vertices;
   };
-  if (model.parts.empty() || mesh.positions.size() != 3 * vertices || !fits(mesh.normals, 3) ||
-      !fits(mesh.colors, 4) || !fits(mesh.texcoords, 2))
-    return false;
+  const bool attributes_fit = mesh.positions.size() == 3 * vertices && fits(mesh.normals, 3) &&
+                              fits(mesh.colors, 4) && fits(mesh.texcoords, 2);
+  if (!attributes_fit || model.parts.empty()) return false;
   for (const std::uint32_t index : mesh.indices)
     if (index >= vertices) return false;
   std::size_t next = 0;
@@ -202,7 +200,7 @@ Model model_from_bytes(const std::string& bytes, const std::string& path) try {
   Reader reader(bytes);
   visit_members(reader, model);
   reader.end();
-  if (!is_sound(model)) Reader::fail();
+  if (!is_valid(model)) Reader::fail();
   return model;
 } catch (const Error& error) {
   throw Error(path + ": " + error.what());

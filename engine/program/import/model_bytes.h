@@ -1,4 +1,4 @@
-// A model as bytes, on its way out of the process that read it.
+// Serializes a model for the pipe from the process that read it.
 #pragma once
 
 #include <string>
@@ -8,8 +8,10 @@
 namespace tessera::program {
 
 std::string to_bytes(const Model& model);
-/// @throws Error, naming the file, for bytes that no sound model becomes: they may come from a process that
-/// broke.
+
+/// @param path  the model's file, for messages
+/// @throws Error, naming the file, for bytes that do not hold a valid model: the process that sent them may
+///   have crashed
 Model model_from_bytes(const std::string& bytes, const std::string& path);
 
 }  // namespace tessera::program

@@ -14,18 +14,18 @@ namespace {
 using Double3 = std::array<double, 3>;
 using Float3 = std::array<float, 3>;
 
-// Beyond that many triangles at one place, all of them are one surface: comparing each with each would take
-// too long.
+// Comparing the triangles at one position costs their number squared. Above this limit all of them count as
+// one smooth surface.
 constexpr std::size_t kMaxComparedTriangles = 256;
 
 double dot(const Double3& a, const Double3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Float3 float3(const std::vector<float>& from, std::uint32_t vertex) {
   const float* const p = &from[3 * std::size_t{vertex}];
-  return {p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f};  // no negative zero
+  return {p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f};  // turns -0 into +0
 }
 
-// Twice the area long.
+// Its length is twice the area.
 Double3 face_normal(const MeshData& mesh, std::size_t first_index) {
   const Float3 a = float3(mesh.positions, mesh.indices[first_index]),
                b = float3(mesh.positions, mesh.indices[first_index + 1]),
@@ -49,7 +49,7 @@ bool is_missing(const Float3& normal) {
          !std::isfinite(normal[0] + normal[1] + normal[2]);
 }
 
-// Corners that lie at one position stand together; positions that are no numbers come last.
+// Sorts corners by position; positions with NaN components come last.
 std::vector<std::uint32_t> corners_by_position(const MeshData& mesh) {
   std::vector<std::uint32_t> corners(mesh.indices.size() / 3 * 3);
   std::iota(corners.begin(), corners.end(), 0u);
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> corners_by_position(const MeshData& mesh) {
   return corners;
 }
 
-// Gives corners their normals: a vertex keeps the first that it gets, and is copied for every other one.
+// Assigns normals to corners. A vertex takes the first normal; corners with another one get a copy of it.
 class VertexSplitter {
  public:
   explicit VertexSplitter(MeshData& mesh) : mesh_(mesh), is_set_(mesh.vertex_count()) {}
@@ -109,13 +109,14 @@ void add_creased_normals(MeshData& mesh, double crease_degrees) {
   std::vector<bool> missing;
   for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex)
     missing.push_back(is_missing(float3(mesh.normals, vertex)));
-  std::vector<Double3> normals, units;
+  std::vector<Double3> normals;  // per triangle
+  std::vector<Double3> units;    // the same, normalized
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     normals.push_back(face_normal(mesh, i));
     units.push_back(unit(normals.back()));
   }
-  const double min_cosine =
-      sin_cos_degrees(crease_degrees).cosine - 1e-9;  // rounded positions: what is meant to be plane is
+  // The tolerance keeps triangles of a plane together although their positions are rounded.
+  const double min_cosine = sin_cos_degrees(crease_degrees).cosine - 1e-9;
   const std::vector<std::uint32_t> corners = corners_by_position(mesh);
   VertexSplitter splitter(mesh);
   for (std::size_t first = 0, end = 0; first < corners.size(); first = end) {
@@ -131,13 +132,13 @@ void add_creased_normals(MeshData& mesh, double crease_degrees) {
       return Float3{static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
     };
     const bool is_compared = end - first <= kMaxComparedTriangles;
-    const Float3 of_all = is_compared ? Float3{} : mean([](std::uint32_t) { return true; });
+    const Float3 shared_normal = is_compared ? Float3{} : mean([](std::uint32_t) { return true; });
     for (std::size_t i = first; i < end; ++i) {
       if (!missing[mesh.indices[corners[i]]]) continue;
       const Double3& own = units[corners[i] / 3];
       splitter.set(corners[i],
                    is_compared ? mean([&](std::uint32_t face) { return dot(units[face], own) >= min_cosine; })
-                               : of_all);
+                               : shared_normal);
     }
   }
 }

@@ -1,19 +1,20 @@
-// Normals that a model lacks, and triangles that are wound against theirs.
+// Generates missing normals of a model, and matches the winding of triangles to their normals.
 #pragma once
 
 #include "engine/program/scene/mesh_data.h"
 
 namespace tessera::program {
 
-/// Edges that are sharper stay sharp, where normals have to be made.
+/// Edges sharper than this stay sharp in generated normals.
 constexpr double kCreaseDegrees = 60;
 
-/// Fills in normals that are missing or of length 0: at each corner of a triangle, the mean, weighted by
-/// area, over the triangles at the very same position whose planes are within an angle. Vertices on creases
-/// are split. Indexed meshes.
+/// Fills in normals that are missing or of length 0. Indexed meshes only.
+/// - The normal of a corner is the area-weighted mean over the triangles at exactly the same position whose
+///   planes differ by at most the crease angle.
+/// - Vertices on creases are split.
 void add_creased_normals(MeshData& mesh, double crease_degrees = kCreaseDegrees);
 
-/// Winds triangles counter-clockwise seen from where their normals point.
+/// Winds triangles counter-clockwise when viewed from the side their normals point to.
 void orient_by_normals(MeshData& mesh);
 
 }  // namespace tessera::program

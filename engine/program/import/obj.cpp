@@ -1,9 +1,8 @@
-// Wavefront OBJ and MTL by tinyobjloader. Corners that share position, normal and texture coordinates become
-// one vertex.
+// Reads Wavefront OBJ and MTL with tinyobjloader. Corners with the same position, normal and texture
+// coordinates share a vertex.
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <sstream>
 #include <unordered_map>
 #include <utility>
@@ -18,42 +17,24 @@
 namespace tessera::program {
 namespace {
 
-// The textures that a material file names. (tinyobjloader keeps one of each kind; a cube of reflections has
-// six.)
-std::set<std::string> textures_of(const std::string& mtl) {
-  std::set<std::string> names;
-  std::istringstream lines(mtl);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream stream(line.substr(0, line.find_last_not_of(" \t") + 1));
-    std::string keyword, rest, name;
-    std::getline(stream >> keyword >> std::ws, rest);
-    const bool is_texture = keyword.starts_with("map_") || keyword == "bump" || keyword == "disp" ||
-                            keyword == "refl" || keyword == "norm" || keyword == "decal";
-    tinyobj::texture_option_t options{};
-    if (is_texture && tinyobj::ParseTextureNameAndOption(&name, &options, rest.c_str())) names.insert(name);
-  }
-  return names;
-}
-
-// Finds material files beside the model; one that is missing is a warning.
+// Reads material files, relative to the folder of the model; a missing one is a warning.
 class MaterialFiles : public tinyobj::MaterialReader {
  public:
   explicit MaterialFiles(std::string folder) : folder_(std::move(folder)) {}
 
-  /// Those and their textures, by their names from the model's folder.
-  const std::set<std::string>& names() const { return names_; }
+  /// Returns the keys that the MTL file gives for `material`.
   MtlKeys given(const std::string& material) const {
     const auto found = given_.find(material);
     return found == given_.end() ? MtlKeys{} : found->second;
   }
 
-  /// `names` is one name with spaces, or several names.
+  /// `names` is one name, which may hold spaces, or several names separated by spaces.
   bool operator()(const std::string& names, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* by_name, std::string* warning, std::string* error) override {
     const auto paths = possible_paths(names);
     for (const std::string& path : paths) {
-      std::error_code no_name;  // of a file: too long
-      if (path == names || std::filesystem::exists(std::filesystem::path(folder_) / path, no_name))
+      std::error_code invalid_name;  // such as one that is too long
+      if (path == names || std::filesystem::exists(std::filesystem::path(folder_) / path, invalid_name))
         return read(path, materials, by_name, warning, error);
     }
     bool is_read = false;
@@ -66,7 +47,6 @@ class MaterialFiles : public tinyobj::MaterialReader {
   bool read(const std::string& name, std::vector<tinyobj::material_t>* materials,
             std::map<std::string, int>* by_name, std::string* warning, std::string* error) {
     const std::string path = (std::filesystem::path(folder_) / name).string();
-    names_.insert(name);
     std::string text;
     try {
       refuse_device_or_pipe(path);
@@ -78,13 +58,8 @@ class MaterialFiles : public tinyobj::MaterialReader {
     std::vector<std::string> warnings;
     text = normalized_mtl(text, path, warnings);
     given_.merge(check_mtl(text, path));
-    for (const std::string& texture : textures_of(text)) {
-      names_.insert(texture);
-      names_.insert((std::filesystem::path(name).parent_path() / texture)
-                        .string());  // programs differ in where they look
-    }
     std::istringstream stream(text);
-    std::string more;  // LoadMtl overwrites what stands there
+    std::string more;  // LoadMtl overwrites its warnings
     tinyobj::LoadMtl(by_name, materials, &stream, &more, error);
     for (const std::string& line : warnings) *warning += line + "\n";
     *warning += more;
@@ -92,12 +67,11 @@ class MaterialFiles : public tinyobj::MaterialReader {
   }
 
   std::string folder_;
-  std::set<std::string> names_;
   std::map<std::string, MtlKeys, std::less<>> given_;
 };
 
-// tinyobjloader leaves a colour that is not given black; such a surface has the default diffuse colour, and
-// reflects ambient light as it reflects all other. Below illum 2 there is no highlight.
+// Replaces the black that tinyobjloader leaves for colours that the file does not give: diffuse by the
+// default, ambient by the diffuse colour. Materials with illum below 2 have no highlight.
 void fill_in(tinyobj::material_t& material, const MtlKeys& given, std::string& warning) {
   const Color diffuse = Material{}.diffuse;
   const float standard[3] = {diffuse.r, diffuse.g, diffuse.b};
@@ -116,10 +90,10 @@ struct Obj {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
-  std::vector<std::string> warnings, files;
+  std::vector<std::string> warnings;
 };
 
-// One warning a line, each once.
+// Splits the text into lines without repetitions.
 std::vector<std::string> warning_lines(const std::string& text, const std::string& path) {
   constexpr std::size_t kMaxWarnings = 20;
   std::vector<std::string> lines;
@@ -138,23 +112,25 @@ Obj load(const std::string& path) {
   Obj obj;
   MaterialFiles material_files(std::filesystem::path(path).parent_path().string());
   std::istringstream stream(text);
-  std::string warning, error;
-  constexpr bool kTriangulate = true, kWhiteIfUncolored = false;
+  std::string warning;
+  std::string error;
+  constexpr bool kTriangulate = true;
+  constexpr bool kWhiteIfUncolored = false;
   if (!tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error, &stream,
                         &material_files, kTriangulate, kWhiteIfUncolored)) {
     error.erase(std::remove(error.begin(), error.end(), '\n'), error.end());
-    throw Error(path + ": " + (error.empty() ? "is no OBJ file" : error));
+    throw Error(path + ": " + (error.empty() ? "is not an OBJ file" : error));
   }
   for (tinyobj::material_t& material : obj.materials)
     fill_in(material, material_files.given(material.name), warning);
   obj.warnings = warning_lines(warning, path);
-  obj.files.assign(material_files.names().begin(), material_files.names().end());
   return obj;
 }
 
-// What every corner of a file has.
+// Attributes that every corner of a file has.
 struct CornerAttributes {
-  bool normals = false, texcoords = false;
+  bool normals = false;
+  bool texcoords = false;
 };
 
 // Turns corners (position, normal, texture coordinates) into vertices of one mesh.
@@ -199,7 +175,9 @@ class VertexPool {
                                       16);
     }
   };
-  bool has_normals_, has_texcoords_, has_colors_;
+  bool has_normals_;
+  bool has_texcoords_;
+  bool has_colors_;
   MeshData& mesh_;
   std::unordered_map<std::pair<std::uint64_t, std::uint32_t>, std::uint32_t, Hash> vertices_;
 };
@@ -212,7 +190,7 @@ Material material_from_mtl(const tinyobj::material_t& from, std::vector<std::str
   constexpr float kMaxShininess = 16384;
   if (from.shininess < 0 || from.shininess > kMaxShininess)
     warnings.push_back(path + ": Ns of material \"" + from.name + "\" is " + std::to_string(from.shininess) +
-                       ", cut to 0 .. 16384");
+                       ", clamped to 0 .. 16384");
   return {.ambient = color(from.ambient, 1),
           .diffuse = color(from.diffuse, from.dissolve),
           .specular = color(from.specular, 1),
@@ -224,9 +202,11 @@ Material material_from_mtl(const tinyobj::material_t& from, std::vector<std::str
 
 Model import_obj(const std::string& path) {
   Obj obj = load(path);
-  Model model{.warnings = std::move(obj.warnings), .files = std::move(obj.files)};
+  Model model{.warnings = std::move(obj.warnings)};
 
-  std::size_t corners = 0, corners_with_normal = 0, corners_with_texcoord = 0;
+  std::size_t corners = 0;
+  std::size_t corners_with_normal = 0;
+  std::size_t corners_with_texcoord = 0;
   const auto texcoords = static_cast<std::int64_t>(obj.attributes.texcoords.size() / 2);
   for (const tinyobj::shape_t& shape : obj.shapes)
     for (const tinyobj::index_t& corner : shape.mesh.indices) {
@@ -237,12 +217,12 @@ Model import_obj(const std::string& path) {
   if (corners == 0) throw Error(path + ": holds no triangle");
   const bool has_normals = corners_with_normal == corners;
   if (!has_normals && corners_with_normal > 0)
-    model.warnings.push_back(path + ": only some corners have normals; all are computed");
+    model.warnings.push_back(path + ": only some corners have normals; all normals are generated");
   const bool has_texcoords = corners_with_texcoord == corners;
   if (!has_texcoords && corners_with_texcoord > 0)
     model.warnings.push_back(path + ": only some corners have texture coordinates; none are used");
 
-  // Triangles by material; -1: none.
+  // Groups triangles by material; -1 is none.
   VertexPool pool(obj.attributes, {has_normals, has_texcoords}, model.mesh);
   std::vector<int> order;
   std::map<int, std::vector<std::uint32_t>> triangles;

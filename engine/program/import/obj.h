@@ -7,8 +7,8 @@
 
 namespace tessera::program {
 
-/// In this process; `files` are names, from the folder of the model. @throws Error, naming the file and where
-/// possible the line.
+/// Reads the model in this process.
+/// @throws Error, naming the file and if possible the line
 Model import_obj(const std::string& path);
 
 }  // namespace tessera::program

@@ -10,7 +10,7 @@
 namespace tessera::program {
 namespace {
 
-// The words of one line, and where it is.
+// Splits one line into words; messages name its file and number.
 class Line {
  public:
   Line(std::string_view text, const std::string& file, std::size_t number)
@@ -33,7 +33,7 @@ class Line {
     for (int i = 0; i < count; ++i) {
       std::string_view text = word();
       if (text.empty() || text.front() == '#')
-        fail("\"" + std::string(keyword) + "\" has " + std::to_string(i) + " numbers, needs " +
+        fail("\"" + std::string(keyword) + "\" has " + std::to_string(i) + " numbers, expected " +
              std::to_string(count));
       const std::string found(text.substr(0, 40));
       if (text.front() == '+') text.remove_prefix(1);
@@ -65,7 +65,8 @@ void for_each_line(std::string_view text, const std::string& file, const Read& r
 }
 
 struct Counts {
-  std::int64_t positions = 0, normals = 0;
+  std::int64_t positions = 0;
+  std::int64_t normals = 0;
 };
 
 std::int64_t index_of(std::string_view text, const Line& line) {
@@ -76,25 +77,24 @@ std::int64_t index_of(std::string_view text, const Line& line) {
   return index;
 }
 
-// From 1, or from -1 backwards.
+// Indices count from 1 forwards, or from -1 backwards.
 void check_index(std::string_view text, std::int64_t count, const char* kind, const Line& line) {
   const std::int64_t index = index_of(text, line);
   if (index == 0 || index > count || index < -count)
-    line.fail("index " + std::to_string(index) + " out of bounds, there are " + std::to_string(count) + " " +
-              kind + " before this line");
+    line.fail("index " + std::to_string(index) + " is out of bounds, there are " + std::to_string(count) +
+              " " + kind + " before this line");
 }
 
-// It may be more than there are: then no texture coordinates are used.
+// Indices beyond the last texture coordinate are allowed: the model then has no texture coordinates.
 void check_texture_index(std::string_view text, const Line& line) {
   constexpr std::int64_t kMaxIndex = std::numeric_limits<int>::max();
   const std::int64_t index = index_of(text, line);
   if (index == 0 || index > kMaxIndex || index < -kMaxIndex)
-    line.fail("texture index " + std::to_string(index) + " out of bounds");
+    line.fail("texture index " + std::to_string(index) + " is out of bounds");
 }
 
 void check_face(Line& line, const Counts& counts) {
-  constexpr int kMaxCorners =
-      1024;  // the time that it takes to cut a polygon into triangles grows with the square, or worse
+  constexpr int kMaxCorners = 1024;  // the cost of triangulation grows at least with the square
   int corners = 0;
   for (std::string_view corner = line.word(); !corner.empty() && corner.front() != '#';
        corner = line.word()) {
@@ -107,10 +107,10 @@ void check_face(Line& line, const Counts& counts) {
     }
     ++corners;
   }
-  if (corners < 3) line.fail("a face has " + std::to_string(corners) + " corners, needs 3");
+  if (corners < 3) line.fail("a face has " + std::to_string(corners) + " corners, expected at least 3");
   if (corners > kMaxCorners)
-    line.fail("a face has " + std::to_string(corners) + " corners, at most " + std::to_string(kMaxCorners) +
-              " are read");
+    line.fail("a face has " + std::to_string(corners) + " corners, must be at most " +
+              std::to_string(kMaxCorners));
 }
 
 }  // namespace

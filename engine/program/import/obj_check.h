@@ -1,5 +1,5 @@
-// What tinyobjloader lets through in silence (a word instead of a number becomes 0, an index may point
-// nowhere) is checked first, line by line.
+// Validates OBJ and MTL files line by line before tinyobjloader reads them. It would silently accept errors:
+// a word in place of a number becomes 0, and an index may point anywhere.
 #pragma once
 
 #include <functional>
@@ -9,18 +9,25 @@
 
 namespace tessera::program {
 
-/// @throws Error with file and line for a number of a vertex or normal that is missing, no number or not
-/// finite, and for a face with fewer than three corners, an index that points to no vertex or normal before
-/// it, or one of a texture coordinate that none can have.
+/// Checks vertices, normals and faces of an OBJ file.
+/// @throws Error with file and line for a number that is missing, malformed or not finite, a face with fewer
+///   than 3 or too many corners, an index that refers to no vertex or normal of an earlier line, or an
+///   impossible index of a texture coordinate
 void check_obj(std::string_view text, const std::string& file);
 
-/// What an MTL file says of a material: a colour that is not given is not black, and what is given may not be
-/// supported.
+/// The keys that an MTL file gives for a material. A colour that is not given has a default other than black;
+/// texture and dissolve are not supported.
 struct MtlKeys {
-  bool ambient = false, diffuse = false, illum = false, texture = false, dissolve = false;
+  bool ambient = false;
+  bool diffuse = false;
+  bool illum = false;
+  bool texture = false;
+  bool dissolve = false;
 };
 
-/// The same for the colours, Ns and d of an MTL file (of illum: normalized_mtl()). Materials by their names.
+/// Checks colours, Ns and d of an MTL file; normalized_mtl() checks illum.
+/// @return the keys of each material, by its name
+/// @throws Error as check_obj()
 std::map<std::string, MtlKeys, std::less<>> check_mtl(std::string_view text, const std::string& file);
 
 }  // namespace tessera::program

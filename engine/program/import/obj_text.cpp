@@ -22,7 +22,8 @@ std::string edit_lines(std::string_view text, const Edit& edit) {
   std::string result;
   result.reserve(text.size() + 1);
   while (!text.empty()) {
-    std::string line, skipped_ends;
+    std::string line;
+    std::string skipped_ends;
     for (bool continued = true; continued && !text.empty();) {
       const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
       const std::size_t next = std::min(end + (text.substr(end, 2) == "\r\n" ? 2 : 1), text.size());
@@ -34,7 +35,8 @@ std::string edit_lines(std::string_view text, const Edit& edit) {
         skipped_ends += '\n';
       }
     }
-    const std::string_view whole = trimmed(line), keyword = whole.substr(0, whole.find_first_of(kSpaces));
+    const std::string_view whole = trimmed(line);
+    const std::string_view keyword = whole.substr(0, whole.find_first_of(kSpaces));
     const std::string edited = edit(keyword, trimmed(whole.substr(keyword.size())));
     result += edited.empty() ? line : edited;
     result += '\n' + skipped_ends;
@@ -42,13 +44,14 @@ std::string edit_lines(std::string_view text, const Edit& edit) {
   return result;
 }
 
-std::string named(std::string_view keyword, std::string_view name) {
+// "keyword name" with kSpaceInName inside the name.
+std::string line_with_name(std::string_view keyword, std::string_view name) {
   std::string line = std::string(keyword) + " " + std::string(name);
   std::replace(line.begin() + static_cast<std::ptrdiff_t>(keyword.size()) + 1, line.end(), ' ', kSpaceInName);
   return line;
 }
 
-// Of "2.0", too, and of what stands behind a space.
+// Accepts "2.0" as well, and ignores text after a space.
 bool begins_with_int(std::string_view text) {
   text = text.substr(0, text.find_first_of(kSpaces));
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -64,9 +67,10 @@ bool begins_with_int(std::string_view text) {
 std::string normalized_obj(const std::string& text) {
   return edit_lines(text, [](std::string_view keyword, std::string_view arguments) -> std::string {
     if (keyword == "vw" || keyword == "l" || keyword == "p" || keyword == "t") return "#";
-    if (keyword == "usemtl" && arguments.find(' ') != arguments.npos) return named(keyword, arguments);
+    if (keyword == "usemtl" && arguments.find(' ') != arguments.npos)
+      return line_with_name(keyword, arguments);
     if (keyword == "mtllib" && arguments.find_first_of(" \\") != arguments.npos) {
-      std::string line = named(keyword, arguments);
+      std::string line = line_with_name(keyword, arguments);
       std::replace(line.begin(), line.end(), '\\', kBackslashInName);
       return line;
     }
@@ -80,7 +84,7 @@ std::string normalized_mtl(const std::string& text, const std::string& path,
   return edit_lines(text, [&](std::string_view keyword, std::string_view arguments) -> std::string {
     if (keyword == "newmtl") {
       material = arguments;
-      return named(keyword, arguments);
+      return line_with_name(keyword, arguments);
     }
     if (keyword == "illum" && !begins_with_int(arguments)) {
       warnings.push_back(path + ": illum of material \"" + material + "\" is left out: found \"" +
@@ -106,7 +110,8 @@ std::string with_spaces(std::string name) {
 
 std::array<std::string, 2> possible_paths(std::string name) {
   name = with_spaces(std::move(name));
-  std::string with_slashes, unescaped;
+  std::string with_slashes;
+  std::string unescaped;
   for (std::size_t i = 0; i < name.size(); ++i) {
     const bool before_space = name[i] == kBackslashInName && name[i + 1] == ' ';
     if (!before_space) with_slashes += name[i] == kBackslashInName ? '/' : name[i];

@@ -1,4 +1,4 @@
-// Spots whose light falls off between two angles, as an exponent.
+// Converts the two cone angles of a spot light to a spot exponent.
 #pragma once
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 
 namespace tessera::program {
 
-/// glTF's ramp, the square of (cos t - cos outer) / (cos inner - cos outer), is 1/2 at some angle t;
-/// cos(t)^exponent is too. Angles in radians. 0 where there is no such exponent.
+/// Returns the exponent for which cos(t)^exponent is 1/2 at the angle t where glTF's ramp,
+/// ((cos t - cos outer) / (cos inner - cos outer))^2, is 1/2; 0 if there is none. Angles in radians.
 inline float spot_exponent_from_cone(double inner, double outer) {
   constexpr double kMaxExponent = 16384;
   const double cosine = std::cos(outer) + std::sqrt(0.5) * (std::cos(inner) - std::cos(outer));

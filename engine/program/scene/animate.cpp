@@ -26,7 +26,8 @@ double value_at(const Value& keys, double time) {
   return list.back().value;
 }
 
-bool walk(Json& json, double time, const std::string& pointer, const std::string& file) {
+// Replaces keys at and below `json`, whose JSON pointer is `pointer`. Returns whether there were any.
+bool replace_keys(Json& json, double time, const std::string& pointer, const std::string& file) {
   if (json.is_object() && json.size() == 1 && json.contains("keys") && json["keys"].is_array()) {
     const Json keys = json["keys"];
     const double value = value_at(Value(keys, pointer + "/keys", file), time);
@@ -36,17 +37,16 @@ bool walk(Json& json, double time, const std::string& pointer, const std::string
   }
   bool any = false;
   if (json.is_object())
-    for (auto& [key, member] : json.items()) any |= walk(member, time, pointer + "/" + key, file);
+    for (auto& [key, member] : json.items()) any |= replace_keys(member, time, pointer + "/" + key, file);
   if (json.is_array())
     for (std::size_t i = 0; i < json.size(); ++i)
-      if (json[i].is_structured())
-        any |= walk(json[i], time, pointer + "/" + std::to_string(i),
-                    file);  // a long list of numbers costs no pointers
+      if (json[i].is_structured())  // plain numbers skip the cost of a pointer string
+        any |= replace_keys(json[i], time, pointer + "/" + std::to_string(i), file);
   return any;
 }
 
 }  // namespace
 
-bool animate(Json& json, double time, const std::string& file) { return walk(json, time, "", file); }
+bool animate(Json& json, double time, const std::string& file) { return replace_keys(json, time, "", file); }
 
 }  // namespace tessera::program::json

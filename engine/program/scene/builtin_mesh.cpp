@@ -1,5 +1,5 @@
-// Sphere, torus, cube, cylinder, cone, quad and grid. Points on circles come from one table for each circle,
-// so that a seam has the very same coordinates on both sides.
+// Sphere, torus, cube, cylinder, cone, quad and grid. Each circle has one table of points, so that both sides
+// of a seam have identical coordinates.
 #include "engine/program/scene/builtin_mesh.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class Circle {
   };
 
   explicit Circle(int count) {
-    constexpr Point kQuarters[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};  // exact: a pole must be one point
+    constexpr Point kQuarters[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};  // exact, so that a pole is one point
     for (int i = 0; i < count; ++i) {
       const double angle = 2 * std::numbers::pi * i / count;
       points_.push_back(4 * i % count == 0 ? kQuarters[4 * i / count]
@@ -29,7 +29,7 @@ class Circle {
     }
   }
   Point at(int i) const { return points_[static_cast<std::size_t>(i) % points_.size()]; }
-  /// On the circle around the y axis, counter-clockwise seen from above: from +x through -z.
+  /// Point of the circle around the y axis, counter-clockwise as viewed from above: from +x through -z.
   Vec3 around_y(int i, double radius, double y) const {
     const Point p = at(i);
     return {radius * p.cosine, y, -radius * p.sine};
@@ -41,7 +41,7 @@ class Circle {
 
 MeshData sphere(int n) {
   MeshData mesh;
-  const Circle circle(2 * n);  // half of it serves as the meridian, too
+  const Circle circle(2 * n);  // one half is also the meridian
   append_patch(mesh, 2 * n, n, [&](int i, int j) {
     const auto [height, radius] = circle.at(j);
     const Vec3 p = circle.around_y(i, radius, -height);
@@ -51,11 +51,14 @@ MeshData sphere(int n) {
 }
 
 MeshData torus(int n) {
-  constexpr double kRingRadius = 0.7, kTubeRadius = 0.3;
+  constexpr double kRingRadius = 0.7;
+  constexpr double kTubeRadius = 0.3;
   MeshData mesh;
-  const Circle ring(2 * n), tube(n);
+  const Circle ring(2 * n);
+  const Circle tube(n);
   append_patch(mesh, 2 * n, n, [&](int i, int j) {
-    const auto around = ring.at(i), through = tube.at(j);
+    const auto around = ring.at(i);
+    const auto through = tube.at(j);
     const double radius = kRingRadius + kTubeRadius * through.cosine;
     return SurfacePoint{{radius * around.cosine, radius * around.sine, kTubeRadius * through.sine},
                         {through.cosine * around.cosine, through.cosine * around.sine, through.sine}};
@@ -92,7 +95,7 @@ MeshData grid(int n) {
   return mesh;
 }
 
-// A disc at height y; its triangles share the centre. Seen from its own side s runs counter-clockwise.
+// A disc at height y; its triangles share the centre. s runs counter-clockwise as viewed from outside.
 void append_cap(MeshData& mesh, const Circle& circle, int around, double y, bool faces_up) {
   append_patch(mesh, around, 1, [&](int i, int j) {
     return SurfacePoint{circle.around_y(faces_up ? i : around - i, 1.0 - j, y),
@@ -111,8 +114,8 @@ MeshData cylinder(int n) {
   return mesh;
 }
 
-// Height 2 over radius 1: the side's normal is (2 cos, 1, 2 sin) / sqrt 5. At the apex each wedge keeps a
-// normal of its own.
+// Height 2 over radius 1, so the normal of the side is (2 cos, 1, 2 sin) / sqrt 5. Each wedge has a separate
+// normal at the apex.
 MeshData cone(int n) {
   MeshData mesh;
   const Circle circle(2 * n);
@@ -124,6 +127,16 @@ MeshData cone(int n) {
   return mesh;
 }
 
+MeshData make_mesh(std::string_view name, int detail) {
+  if (name == "teapot") return teapot_mesh(detail);
+  if (name == "sphere") return sphere(detail);
+  if (name == "torus") return torus(detail);
+  if (name == "cube") return cube(detail);
+  if (name == "cylinder") return cylinder(detail);
+  if (name == "cone") return cone(detail);
+  return grid(name == "quad" ? 1 : detail);
+}
+
 }  // namespace
 
 int min_mesh_detail(std::string_view name) { return name == "sphere" || name == "torus" ? 2 : 1; }
@@ -133,16 +146,10 @@ MeshData builtin_mesh(std::string_view name, int detail) {
   if (std::find(kBuiltinMeshNames.begin(), kBuiltinMeshNames.end(), name) == kBuiltinMeshNames.end())
     throw Error("there is no built-in mesh \"" + text + "\"");
   if (detail < min_mesh_detail(name) || detail > kMaxMeshDetail)
-    throw Error("detail of a built-in " + text + " is " + std::to_string(detail) + ", must be " +
-                std::to_string(min_mesh_detail(name)) + " .. " + std::to_string(kMaxMeshDetail));
+    throw Error("the detail of a built-in " + text + " is " + std::to_string(detail) + ", must be " +
+                std::to_string(min_mesh_detail(name)) + " to " + std::to_string(kMaxMeshDetail));
 
-  MeshData mesh = name == "teapot"     ? teapot_mesh(detail)
-                  : name == "sphere"   ? sphere(detail)
-                  : name == "torus"    ? torus(detail)
-                  : name == "cube"     ? cube(detail)
-                  : name == "cylinder" ? cylinder(detail)
-                  : name == "cone"     ? cone(detail)
-                                       : grid(name == "quad" ? 1 : detail);
+  MeshData mesh = make_mesh(name, detail);
   mesh.name = text;
   return mesh;
 }

@@ -1,5 +1,5 @@
-// The built-in meshes of the scene format: y up, wound counter-clockwise seen from outside, with outward unit
-// normals.
+// The built-in meshes of the scene format: y up, counter-clockwise as viewed from outside, with outward unit
+// normals and texture coordinates.
 #pragma once
 
 #include <array>
@@ -18,14 +18,15 @@ inline constexpr std::array<std::string_view, 8> kBuiltinMeshNames{"teapot",   "
 
 /// @param name    one of kBuiltinMeshNames
 /// @param detail  subdivisions: min_mesh_detail(name) .. kMaxMeshDetail
-/// @throws Error for any other name or detail.
+/// @throws Error for any other name or detail
 MeshData builtin_mesh(std::string_view name, int detail = kDefaultMeshDetail);
 
-/// A sphere or a torus needs 2: with 1 no triangle of it has an area.
+/// Returns the lowest detail of a mesh: 2 for a sphere or a torus, whose triangles have no area with 1;
+/// else 1.
 int min_mesh_detail(std::string_view name);
 
-/// Martin Newell's teapot at detail x detail quads a patch, centred in the bounds of its vertices; the
-/// longest side spans -1..1.
+/// Returns Martin Newell's teapot with detail x detail quads per patch, centred in the bounds of its
+/// vertices; the longest side spans -1..1.
 MeshData teapot_mesh(int detail);
 
 }  // namespace tessera::program

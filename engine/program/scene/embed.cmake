@@ -1,4 +1,4 @@
-# Writes the source behind embedded.h: cmake -DTEAPOT=file -DSCENE=file -DOUTPUT=file -P embed.cmake
+# Generates the source of embedded.h: cmake -DTEAPOT=file -DSCENE=file -DOUTPUT=file -P embed.cmake
 file(READ "${TEAPOT}" teapot)
 file(READ "${SCENE}" scene)
 file(WRITE "${OUTPUT}"

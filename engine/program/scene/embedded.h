@@ -1,4 +1,4 @@
-// Files that are part of the program; CMake turns them into a source (embed.cmake).
+// Files compiled into the program; embed.cmake generates the source.
 #pragma once
 
 #include <string_view>

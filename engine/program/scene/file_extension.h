@@ -1,4 +1,4 @@
-// What a file's name says of its format.
+// The extension of a file name, which selects the format.
 #pragma once
 
 #include <algorithm>
@@ -8,12 +8,12 @@
 
 namespace tessera::program {
 
-/// ".png" of "Picture.PNG"; empty where there is none.
+/// Returns ".png" for "Picture.PNG"; empty if there is none.
 inline std::string lower_case_extension(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+  return extension;
 }
 
 }  // namespace tessera::program

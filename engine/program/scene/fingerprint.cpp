@@ -56,6 +56,7 @@ std::ostream& operator<<(std::ostream& out, const Fingerprint& f) {
 }
 
 Fingerprint fingerprint(const FrameBuffer& buffer) {
+  constexpr std::uint64_t kNotKept = 1;
   Fingerprint f;
   f.color = hash_of(packed_colors(buffer));
   if (buffer.plane_count(Buffer::depth) > 0) f.depth = hash_of(stored_depths(buffer));
@@ -67,15 +68,17 @@ Fingerprint fingerprint(const FrameBuffer& buffer) {
         hash.add(std::bit_cast<std::conditional_t<sizeof value == 1, std::uint8_t, std::uint32_t>>(value));
       return hash.value();
     } catch (const Error&) {
-      return 1;
+      return kNotKept;
     }
   };
   f.stencil = value_hash(Buffer::stencil, [&] { return stencil_values(buffer); });
   f.accumulation = value_hash(Buffer::accumulation, [&] { return accumulation_values(buffer); });
-  for (const Buffer which : {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation})
-    if ((which != Buffer::stencil || f.stencil != 1) &&
-        (which != Buffer::accumulation || f.accumulation != 1))
-      for (int k = 0; k < buffer.plane_count(which); ++k) f.planes.push_back(hash_of(buffer.plane(which, k)));
+  for (const Buffer which : {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation}) {
+    const bool is_lost_stencil = which == Buffer::stencil && f.stencil == kNotKept;
+    const bool is_lost_accumulation = which == Buffer::accumulation && f.accumulation == kNotKept;
+    if (is_lost_stencil || is_lost_accumulation) continue;
+    for (int k = 0; k < buffer.plane_count(which); ++k) f.planes.push_back(hash_of(buffer.plane(which, k)));
+  }
   return f;
 }
 

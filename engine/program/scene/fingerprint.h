@@ -1,4 +1,4 @@
-// What a frame buffer holds, read back in one line, and as hashes that are the same on every machine.
+// Reads back the contents of frame buffers, and hashes them identically on every machine.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ std::size_t pixel_count(const FrameBuffer& buffer);
 std::vector<std::uint32_t> packed_colors(const FrameBuffer& buffer);
 std::vector<std::uint32_t> stored_depths(const FrameBuffer& buffer);
 std::vector<std::uint8_t> stencil_values(const FrameBuffer& buffer);
-/// r g b a of each pixel.
+/// Returns r g b a per pixel.
 std::vector<float> accumulation_values(const FrameBuffer& buffer);
 
-/// 64 bits of a run of words, by value: no matter of byte order.
+/// 64-bit hash of words; independent of endianness.
 class Hash {
  public:
   void add(std::uint64_t word) {
@@ -32,11 +32,13 @@ class Hash {
 std::uint64_t hash_of(std::span<const std::uint32_t> words);
 std::uint64_t hash_of(const PlaneView& plane);
 
-/// What a frame left behind. 0 stands for a buffer that there is none of, 1 for one that was not kept. Alpha
-/// stands in the colour.
+/// Hashes of a frame buffer's contents. 0: the format has no such buffer; 1: the frame did not keep it.
 struct Fingerprint {
-  std::uint64_t color = 0, depth = 0, stencil = 0, accumulation = 0;
-  std::vector<std::uint64_t> planes;  ///< of colour, then of depth, of stencil and of accumulation
+  std::uint64_t color = 0;  ///< including alpha
+  std::uint64_t depth = 0;
+  std::uint64_t stencil = 0;
+  std::uint64_t accumulation = 0;
+  std::vector<std::uint64_t> planes;  ///< planes of colour, depth, stencil and accumulation, in this order
   friend bool operator==(const Fingerprint&, const Fingerprint&) = default;
   friend std::ostream& operator<<(std::ostream& out, const Fingerprint& f);
 };

@@ -1,6 +1,6 @@
-// The library's parser, and values made of what it says. It would let a second key of the same name win in
-// silence, look at all keys of an object before each new one, and, where its own callback watches, at all
-// elements of a list after each object in it.
+// Builds JSON values from the events of nlohmann's SAX parser. Its DOM parser would silently accept duplicate
+// keys and search all keys of an object for each new one; with a callback it would also visit all elements of
+// a list after each object in it.
 #include <set>
 
 #include "engine/program/scene/json_value.h"
@@ -8,8 +8,8 @@
 namespace tessera::program::json {
 namespace {
 
-// Follows the parser through the file and knows the pointer of where it is. What the parser calls returns
-// true: it shall go on.
+// Receives the parser's events and tracks the JSON pointer of the current value. Event handlers return true
+// to continue.
 class Reader {
  public:
   Reader(const std::string& file, Json& whole) : file_(file), whole_(whole) {}
@@ -20,7 +20,7 @@ class Reader {
   bool number_unsigned(Json::number_unsigned_t value) { return put(Json(value)); }
   bool number_float(Json::number_float_t value, const std::string&) { return put(Json(value)); }
   bool string(std::string& value) { return put(Json(std::move(value))); }
-  bool binary(Json::binary_t&) { return true; }  // which JSON text has none of
+  bool binary(Json::binary_t&) { return true; }  // does not occur in JSON text
   bool start_object(std::size_t) { return open(false); }
   bool start_array(std::size_t) { return open(true); }
   bool key(std::string& name) {
@@ -33,9 +33,8 @@ class Reader {
   bool end_object() {
     Json object(Json::value_t::object);
     auto& members = object.get_ref<Json::object_t&>();
-    members.reserve(
-        levels_.back()
-            .members.size());  // its keys are constant: to grow, it would copy them with all that is in them
+    // ordered_json has constant keys, so growing would copy all members instead of moving them.
+    members.reserve(levels_.back().members.size());
     for (Member& member : levels_.back().members)
       members.emplace_back(std::move(member.key), std::move(member.value));
     return close(std::move(object));
@@ -50,7 +49,7 @@ class Reader {
     throw error;
   }
 
-  /// Of the value that is being read.
+  /// Returns the JSON pointer of the value that is being read.
   std::string pointer() const {
     std::string text;
     for (const Level& level : levels_)

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kUnsupported = "part of the format but not supported by this version of Tessera";
 
-// Scalars as they are; the rest by kind and size: a message is one line.
+// Describes a value in one line: scalars verbatim, objects and arrays by kind and size.
 std::string description(const Json& json) {
   constexpr std::size_t kMaxShownLength = 60;
   if (json.is_object()) return json.contains("keys") ? "an object with \"keys\"" : "an object";
@@ -35,7 +35,11 @@ std::string quoted_list(std::span<const std::string_view> names) {
 
 std::string Value::pointer_to(const std::string& key) const {
   std::string pointer = pointer_ + "/";
-  for (const char c : key) pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  for (const char c : key) {
+    if (c == '~') pointer += "~0";
+    else if (c == '/') pointer += "~1";
+    else pointer += c;
+  }
   return pointer;
 }
 
@@ -117,8 +121,7 @@ Color Value::color(double min_value, double max_value) const {
 Matrix Value::matrix() const { return {numbers<16>()}; }
 
 Rect Value::rect() const {
-  constexpr std::int64_t kMaxCoordinate =
-      1 << 20;  // well beyond any buffer; keeps sums of corner and size in range
+  constexpr std::int64_t kMaxCoordinate = 1 << 20;  // beyond any buffer; corner + size cannot overflow
   if (!json_->is_array() || json_->size() != 4) fail("[x, y, width, height]");
   const auto at = [&](std::size_t i, std::int64_t min_value) {
     return static_cast<int>(element(i).integer(min_value, kMaxCoordinate));
@@ -165,14 +168,14 @@ Value Object::require(const std::string& key) const {
   return value_.member(key);
 }
 
-void Object::only_default(const std::string& key, const Json& standard, const Json& others) const {
+void Object::only_default(const std::string& key, const Json& default_value, const Json& others) const {
   const std::optional<Value> found = find(key);
-  if (!found || found->json() == standard) return;
-  const bool known = others.empty() ? found->json().type() == standard.type() ||
-                                          (found->json().is_number() && standard.is_number())
-                                    : std::find(others.begin(), others.end(), found->json()) != others.end();
-  if (known) found->refuse_unsupported(description(found->json()));
-  std::string list = standard.dump();
+  if (!found || found->json() == default_value) return;
+  const bool same_type = found->json().type() == default_value.type() ||
+                         (found->json().is_number() && default_value.is_number());
+  const bool is_listed = std::find(others.begin(), others.end(), found->json()) != others.end();
+  if (others.empty() ? same_type : is_listed) found->refuse_unsupported(description(found->json()));
+  std::string list = default_value.dump();
   for (const Json& other : others) list += ", " + other.dump();
   found->fail(others.empty() ? "a value like " + list : "one of " + list);
 }

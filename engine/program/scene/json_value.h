@@ -1,5 +1,5 @@
-// Strict, typed reading of JSON. A Value knows where it stands in which file, so that whatever is wrong with
-// it can be told as one Error: file, JSON pointer, what was found, what was expected.
+// Strict, typed reading of JSON. A Value carries its file and JSON pointer, so that each error names the
+// file, the pointer, what was found and what was expected.
 #pragma once
 
 #include <array>
@@ -18,10 +18,11 @@
 
 namespace tessera::program::json {
 
-using Json = nlohmann::ordered_json;  // keeps the order of the file: meshes are drawn in it
+using Json = nlohmann::ordered_json;  // keeps the order of the file, in which meshes are drawn
 
-/// Parses JSON with comments. Throws Error, with line and column, for bad syntax; with the pointer for a key
-/// that occurs twice in one object; and for nesting beyond 64 levels.
+/// Parses JSON with comments.
+/// @throws Error with line and column for a syntax error; with the pointer for a key that occurs twice in one
+///   object and for nesting beyond 64 levels
 Json parse(std::string_view text, const std::string& file);
 
 class Value {
@@ -35,31 +36,30 @@ class Value {
   Value element(std::size_t i) const { return {(*json_)[i], pointer_ + "/" + std::to_string(i), *file_}; }
   /// The member must exist.
   Value member(const std::string& key) const { return {json_->at(key), pointer_to(key), *file_}; }
-  /// Calls take(key, value) for each member of an object whose keys are names that the file chose, in its
-  /// order.
+  /// Calls take(key, value) for each member of an object with arbitrary keys, in the order of the file.
   template <class Take>
   void for_each_member(const Take& take) const {
     if (!json_->is_object()) fail("an object");
     for (const auto& [key, json] : json_->items()) take(key, Value(json, pointer_to(key), *file_));
   }
 
-  /// `file: pointer: found ..., expected ...`
+  /// @throws Error "file: pointer: found ..., expected ..."
   [[noreturn]] void fail(std::string_view expected) const;
-  /// `file: pointer: message`
+  /// @throws Error "file: pointer: message"
   [[noreturn]] void refuse(std::string_view message) const;
-  /// For what the format defines and this version cannot do yet.
+  /// @throws Error for a value that the format defines but this version does not support
   [[noreturn]] void refuse_unsupported(std::string_view what = "") const;
 
   double number() const;
   double number(double min_value, double max_value) const;
-  float real() const;  ///< a number that a float can hold
+  float real() const;  ///< a number within the range of float
   float real(double min_value, double max_value) const {
     return static_cast<float>(number(min_value, max_value));
   }
   std::int64_t integer(std::int64_t min_value, std::int64_t max_value) const;
   bool boolean() const;
   const std::string& text() const;
-  /// The length of an array.
+  /// Returns the length of an array.
   std::size_t size() const;
 
   template <std::size_t N>
@@ -70,12 +70,13 @@ class Value {
     return result;
   }
   Vec3 vec3() const;
-  Color color() const;  ///< any four numbers that floats can hold
+  Color color() const;  ///< any four numbers within the range of float
   Color color(double min_value, double max_value) const;
   Matrix matrix() const;
-  Rect rect() const;  ///< four integers, width and height not negative
+  Rect rect() const;  ///< four integers; width and height at least 0
 
-  /// One of a list of names. Those of `unsupported` exist in the format, but not in this version.
+  /// Returns the value of one of `names`. The format also defines `unsupported` names, which this version
+  /// refuses.
   template <class Enum>
   Enum choice(std::initializer_list<std::pair<std::string_view, Enum>> names,
               std::initializer_list<std::string_view> unsupported = {}) const {
@@ -87,7 +88,7 @@ class Value {
     refuse_choice(all, unsupported);
   }
 
-  /// Calls make() and tells an Error that it throws as one of this value.
+  /// Returns make(); an Error that it throws is rethrown with file and pointer of this value.
   template <class Make>
   auto checked(const Make& make) const {
     try {
@@ -100,21 +101,21 @@ class Value {
   }
 
  private:
-  std::string pointer_to(const std::string& key) const;  // escaped as RFC 6901 asks
+  std::string pointer_to(const std::string& key) const;  // escaped by RFC 6901
   void expect_numbers(std::size_t count) const;
   [[noreturn]] void refuse_choice(const std::vector<std::string_view>& names,
                                   std::span<const std::string_view> unsupported) const;
 
   const Json* json_;
   std::string pointer_;
-  const std::string* file_;  // of the whole scene; outlives every value
+  const std::string* file_;  // outlives all values
 };
 
 /// The members of an object.
 class Object {
  public:
-  /// Throws Error for a value that is no object, for an unknown key, and for a key of the format that this
-  /// version refuses.
+  /// @throws Error for a value other than an object, for an unknown key, and for an `unsupported` key of the
+  ///   format
   Object(const Value& value, std::initializer_list<std::string_view> keys,
          std::initializer_list<std::string_view> unsupported = {});
 
@@ -122,15 +123,16 @@ class Object {
   bool has(const std::string& key) const { return value_.json().contains(key); }
   std::optional<Value> find(const std::string& key) const;
   Value require(const std::string& key) const;
-  /// A key that may only hold its default in this version. `others` are the remaining values of the format,
-  /// if it lists them.
-  void only_default(const std::string& key, const Json& standard, const Json& others = Json::array()) const;
+  /// Refuses any value of a key but its default. `others` are the remaining values of the format, if it lists
+  /// them.
+  void only_default(const std::string& key, const Json& default_value,
+                    const Json& others = Json::array()) const;
 
  private:
   Value value_;
 };
 
-/// "a, b, c" with quotes around each.
+/// Returns the names in quotes, separated by commas.
 std::string quoted_list(std::span<const std::string_view> names);
 
 }  // namespace tessera::program::json

@@ -14,7 +14,7 @@ void* load_module(const char* file_name, const std::string& wanted_for, const ch
   for (const fs::path& candidate : {folder / file_name, folder / "../lib" / file_name, fs::path(file_name)}) {
     std::error_code error;
     if (candidate.has_parent_path() && !fs::exists(candidate, error)) continue;
-    // Local, and bound now: what it brings stays out of the way, and what it lacks is told here.
+    // RTLD_LOCAL keeps its symbols private; RTLD_NOW reports unresolved ones here.
     if (void* module = ::dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) return module;
     reason = ::dlerror();
   }
@@ -25,7 +25,7 @@ void* load_module(const char* file_name, const std::string& wanted_for, const ch
 void* function_of(void* module, const char* file_name, const char* name) {
   void* const function = ::dlsym(module, name);
   if (function == nullptr)
-    throw Error(std::string("the module ") + file_name + " is of another version: it has no " + name);
+    throw Error(std::string("the module ") + file_name + " has another version: it lacks " + name);
   return function;
 }
 

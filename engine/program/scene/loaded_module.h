@@ -1,4 +1,4 @@
-// Modules: shared libraries that hide a heavy dependency behind C functions, loaded on first need.
+// Loads modules: shared libraries that hide a heavy dependency behind C functions.
 #pragma once
 
 #include <algorithm>
@@ -12,24 +12,25 @@
 
 namespace tessera::program {
 
-/// A module's handle: looked for beside the running program, in ../lib from there, and where the system looks
-/// for libraries. It stays loaded. @throws Error "<wanted_for> needs the module <file_name>, ...;
-/// <otherwise>" where it is missing.
+/// Returns the handle of a module, which stays loaded. Searches the folder of the running program, ../lib
+/// from there, and the system's library path.
+/// @throws Error "<wanted_for> needs the module <file_name>, ...; <otherwise>" if it is missing
 void* load_module(const char* file_name, const std::string& wanted_for, const char* otherwise);
 
-/// @throws Error for a module of another version.
+/// @throws Error for a module of another version
 void* function_of(void* module, const char* file_name, const char* name);
 
-/// Functions of modules hand out bytes by take(user, bytes, count), and return 0, or 1 and a reason, or 2:
-/// not enough memory. Runs call(take, user, message, message size) and returns what it took. @throws Error
-/// with the reason, in one line; std::bad_alloc.
+/// Runs call(take, user, message, message_size) and returns the bytes that it passed to take(user, bytes,
+/// count). call() is a function of a module; it returns 0, 1 with a message, or 2 if it runs out of memory.
+/// @throws Error with the message, in one line
+/// @throws std::bad_alloc
 template <class Call>
 std::string collect_bytes(const Call& call) {
   struct Taken {
     std::string bytes;
     bool fits = true;
   } taken;
-  // No exception crosses the C border.
+  // No exception may cross the C interface.
   const auto take = [](void* user, const unsigned char* from, std::size_t count) noexcept {
     auto& to = *static_cast<Taken*>(user);
     try {

@@ -16,10 +16,11 @@ constexpr double kFovy = 36;  // degrees
 
 double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// Vertices that are not finite are not drawn, either.
+// Ignores vertices that are not finite, which are not drawn.
 Vec3 center_of_bounds(const MeshData& mesh) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+  std::array<double, 3> low{kInfinity, kInfinity, kInfinity};
+  std::array<double, 3> high{-kInfinity, -kInfinity, -kInfinity};
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (!std::isfinite(mesh.positions[i])) continue;
     low[i % 3] = std::min<double>(low[i % 3], mesh.positions[i]);
@@ -28,20 +29,24 @@ Vec3 center_of_bounds(const MeshData& mesh) {
   return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
 }
 
-// From the front, a little from above and from the right; as near as the picture's edges allow. A vertex at
-// x, y and z towards the viewer is inside if |y| <= (distance - z) tan(fovy / 2), and likewise for x.
+// Views the model from the front, slightly from above and from the right, as near as the picture's edges
+// allow. A vertex at x, y and z (towards the viewer) is visible if |y| <= (distance - z) tan(fovy / 2);
+// likewise for x.
 SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::string& name) {
-  const SinCos azimuth = sin_cos_degrees(25), elevation = sin_cos_degrees(17),
-               half_fovy = sin_cos_degrees(kFovy / 2);
+  const SinCos azimuth = sin_cos_degrees(25);
+  const SinCos elevation = sin_cos_degrees(17);
+  const SinCos half_fovy = sin_cos_degrees(kFovy / 2);
   const Vec3 right{azimuth.cosine, 0, -azimuth.sine};
-  const Vec3 back{elevation.cosine * azimuth.sine, elevation.sine,
-                  elevation.cosine * azimuth.cosine};  // towards the viewer
+  // Points towards the viewer.
+  const Vec3 back{elevation.cosine * azimuth.sine, elevation.sine, elevation.cosine * azimuth.cosine};
   const Vec3 up{-elevation.sine * azimuth.sine, elevation.cosine, -elevation.sine * azimuth.cosine};
   const Vec3 centre = center_of_bounds(mesh);
 
   constexpr double kMargin = 1.08;
-  const double tangent_y = half_fovy.sine / half_fovy.cosine / kMargin, tangent_x = tangent_y * aspect;
-  double distance = 0, radius = 0;
+  const double tangent_y = half_fovy.sine / half_fovy.cosine / kMargin;
+  const double tangent_x = tangent_y * aspect;
+  double distance = 0;
+  double radius = 0;
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
     const Vec3 p{mesh.positions[i] - centre.x, mesh.positions[i + 1] - centre.y,
                  mesh.positions[i + 2] - centre.z};
@@ -51,20 +56,21 @@ SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::strin
     radius = std::max(radius, std::sqrt(dot(p, p)));
   }
   if (!(radius > 0) || !std::isfinite(radius))
-    throw Error(name + ": has no extent that a camera could frame");
-  distance = std::max(
-      distance, 1.5 * radius);  // what is long in the direction of view stays away from the viewer's eye
+    throw Error(name + ": the model has no extent for a camera to frame");
+  // Keeps the eye away from models that are long in the direction of view.
+  distance = std::max(distance, 1.5 * radius);
   const Vec3 eye{centre.x + distance * back.x, centre.y + distance * back.y, centre.z + distance * back.z};
   return {
       .view = look_at(eye, centre, {0, 1, 0}),
       .projection = Lens{.fovy = kFovy, .near = distance - 1.01 * radius, .far = distance + 1.01 * radius}};
 }
 
-// The file's own camera, if the model is not all behind it. Near and far come as close to the model as they
-// may, for the depth buffer's sake.
+// Returns a camera of the file, unless the whole model lies behind it. For depth precision, near and far are
+// moved as close to the model as the file allows.
 std::optional<SceneCamera> camera_of_model(const ModelCamera& camera, const MeshData& mesh, double aspect) {
-  double min_distance = std::numeric_limits<double>::infinity(),
-         max_distance = 0;  // distances along the direction of view
+  // Distances along the direction of view.
+  double min_distance = std::numeric_limits<double>::infinity();
+  double max_distance = 0;
   const double* const row = &camera.view.m[8];
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
     const double distance = -(row[0] * mesh.positions[i] + row[1] * mesh.positions[i + 1] +
@@ -73,26 +79,28 @@ std::optional<SceneCamera> camera_of_model(const ModelCamera& camera, const Mesh
     min_distance = std::min(min_distance, distance);
     max_distance = std::max(max_distance, distance);
   }
-  constexpr double kMargin = 1.01, kMaxFarNearRatio = 1e5;
+  constexpr double kMargin = 1.01;
+  constexpr double kMaxFarNearRatio = 1e5;
   const double given_far =
       camera.far > std::max(camera.near, 0.0) ? camera.far : std::numeric_limits<double>::infinity();
   const double far = max_distance > 0 ? std::min(given_far, max_distance * kMargin) : 1;
   const double near =
       std::max(camera.near > 0 ? camera.near : far / kMaxFarNearRatio, min_distance / kMargin);
   if (!(near < far)) return {};
-  const double h = camera.half_height > 0 ? camera.half_height : camera.half_width / aspect, w = h * aspect;
+  const double h = camera.half_height > 0 ? camera.half_height : camera.half_width / aspect;
+  const double w = h * aspect;
   try {
     return SceneCamera{.view = camera.view,
                        .projection = camera.is_orthographic
                                          ? orthographic(-w, w, -h, h, near, far)
                                          : frustum(-w * near, w * near, -h * near, h * near, near, far)};
   } catch (const Error&) {
-    return {};  // a lens as wide as numbers go, or as narrow
+    return {};  // the projection overflows or underflows
   }
 }
 
-// False only if each triangle lies wholly beyond one of the planes of the view.
-bool sees_any_triangle(const SceneCamera& camera, double aspect, const MeshData& mesh) {
+// Tests outcodes: returns false only if each triangle lies wholly beyond one plane of the view volume.
+bool any_triangle_in_view(const SceneCamera& camera, double aspect, const MeshData& mesh) {
   const Camera at = camera.at_aspect(aspect);
   const auto outcode = [&](std::uint32_t vertex) {
     const float* const p = &mesh.positions[3 * std::size_t{vertex}];
@@ -114,18 +122,19 @@ bool sees_any_triangle(const SceneCamera& camera, double aspect, const MeshData&
   return false;
 }
 
-// The first camera of the file that sees anything; else one that frames the model.
+// Chooses the first camera of the file that shows any of the model; if none does, one that frames the model.
 void choose_camera(const Model& model, double aspect, Scene& scene) {
   scene.camera = framing_camera(model.mesh, aspect, scene.name);
-  constexpr std::size_t kMaxTriedCameras = 16;  // each looks at the whole model
+  constexpr std::size_t kMaxTriedCameras = 16;  // each test costs a pass over the model
   for (std::size_t i = 0; i < std::min(model.cameras.size(), kMaxTriedCameras); ++i)
     if (const auto camera = camera_of_model(model.cameras[i], model.mesh, aspect);
-        camera && sees_any_triangle(*camera, aspect, model.mesh)) {
+        camera && any_triangle_in_view(*camera, aspect, model.mesh)) {
       scene.camera = *camera;
       return;
     }
   if (!model.cameras.empty())
-    scene.warnings.push_back(scene.name + ": its cameras see nothing of the model, which is framed instead");
+    scene.warnings.push_back(scene.name +
+                             ": no camera of the file shows the model; a default camera frames it");
 }
 
 }  // namespace
@@ -135,11 +144,10 @@ Scene model_scene(Model model, const std::string& name, int width, int height) {
   scene.framebuffer.width = width;
   scene.framebuffer.height = height;
   scene.light_model.local_viewer = true;
-  scene.light_model.two_sided = true;  // models from outside have holes, and faces wound the wrong way
+  scene.light_model.two_sided = true;  // models may have holes and wrongly wound faces
   scene.lights = model.lights;
   if (scene.lights.empty())
-    scene.lights = {
-        Light{.position = {0.15f, 0.75f, 0.65f, 0}}};  // towards the viewer, over the left shoulder
+    scene.lights = {Light{.position = {0.15f, 0.75f, 0.65f, 0}}};  // over the viewer's left shoulder
   if (model.ambient_light) scene.light_model.ambient = *model.ambient_light;
   scene.warnings = model.warnings;
   choose_camera(model, static_cast<double>(width) / height, scene);

@@ -1,4 +1,5 @@
-// A scene around a model that comes alone: a camera that frames it, a light over the viewer's shoulder.
+// Makes a scene of a single model: its own camera and lights, or a camera that frames it and a light over the
+// viewer's shoulder.
 #pragma once
 
 #include <string>
@@ -10,8 +11,8 @@ namespace tessera::program {
 
 /// @param model   imported for display
 /// @param name    the model's file, for messages
-/// @param width   of the picture, as height: the camera keeps the model inside both
-/// @throws Error for a model without extent.
+/// @param width, height  of the picture that a default camera fits the model into
+/// @throws Error for a model without extent
 Scene model_scene(Model model, const std::string& name, int width = 640, int height = 480);
 
 }  // namespace tessera::program

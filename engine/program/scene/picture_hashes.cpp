@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kDigits = 16;
 
-// The hash at the end of a line, which loses it and the blank before it.
+// Removes the hash and the blank before it from the end of `line`. Returns false if there is none.
 bool take_hash(std::string_view& line, std::uint64_t& hash) {
   if (line.size() <= kDigits || line[line.size() - kDigits - 1] != ' ') return false;
   const std::string_view digits = line.substr(line.size() - kDigits);
@@ -42,7 +42,7 @@ PictureHashes parse_picture_hashes(std::string_view text, const std::string& fil
     const bool taken = take_hash(name, hash.accumulation) && take_hash(name, hash.stencil) &&
                        take_hash(name, hash.depth) && take_hash(name, hash.color);
     if (!taken || name.empty() || name.find(' ') != std::string_view::npos)
-      fail("expected a scene's name and four hashes of 16 hexadecimal digits, one blank between");
+      fail("expected a scene's name and four hashes of 16 hexadecimal digits, separated by single blanks");
     if (!hashes.emplace(name, hash).second) fail("\"" + std::string(name) + "\" occurs twice");
   }
   return hashes;

@@ -1,4 +1,4 @@
-// Cameras: look-at views and projections, or two matrices.
+// Reads cameras: look-at views with projections, or two matrices.
 #include <cmath>
 #include <limits>
 
@@ -37,7 +37,7 @@ void read_perspective(const Value& value, SceneCamera& camera) {
     value.refuse("near is " + Json(lens.near).dump() + ", must be below far, which is 100 by default");
   }
   camera.projection = lens;
-  value.checked([&] { return camera.at_aspect(1); });  // whatever else a projection cannot be
+  value.checked([&] { return camera.at_aspect(1); });  // the remaining conditions of perspective()
 }
 
 void read_planes(const Value& value, bool is_orthographic, SceneCamera& camera) {
@@ -46,8 +46,11 @@ void read_planes(const Value& value, bool is_orthographic, SceneCamera& camera) 
   const Value far_value = object.require("far");
   const double far = read_far(far_value);
   if (is_orthographic && far == kInfinity) far_value.fail("a number: an orthographic volume is finite");
-  const double left = number("left"), right = number("right"), bottom = number("bottom"), top = number("top"),
-               near = number("near");
+  const double left = number("left");
+  const double right = number("right");
+  const double bottom = number("bottom");
+  const double top = number("top");
+  const double near = number("near");
   camera.projection = value.checked([&] {
     return is_orthographic ? orthographic(left, right, bottom, top, near, far, camera.reversed)
                            : frustum(left, right, bottom, top, near, far, camera.reversed);
@@ -58,10 +61,11 @@ void read_projection(const Value& value, SceneCamera& camera) {
   enum class Type { perspective, orthographic, frustum };
   const Object object(value, {"type", "fovy", "left", "right", "bottom", "top", "near", "far", "reversed"});
   const auto type_value = object.find("type");
-  const Type type = !type_value ? Type::perspective
-                                : type_value->choice<Type>({{"perspective", Type::perspective},
-                                                            {"orthographic", Type::orthographic},
-                                                            {"frustum", Type::frustum}});
+  Type type = Type::perspective;
+  if (type_value)
+    type = type_value->choice<Type>({{"perspective", Type::perspective},
+                                     {"orthographic", Type::orthographic},
+                                     {"frustum", Type::frustum}});
   if (const auto reversed = object.find("reversed")) camera.reversed = reversed->boolean();
   if (type == Type::perspective) read_perspective(value, camera);
   else read_planes(value, type == Type::orthographic, camera);
@@ -81,15 +85,16 @@ SceneCamera read_camera(const Value& value) {
   }
   const auto projection = object.find("projection");
   if (const auto reversed = object.find("reversed"))
-    reversed->refuse("\"reversed\" stands in \"projection\", or beside view and projection matrices");
+    reversed->refuse("\"reversed\" belongs in \"projection\", or next to view and projection matrices");
   if (projection && projection->json().is_array())
-    value.refuse("a projection matrix needs a \"view\" matrix beside it");
-  const auto vector = [&](const char* key, Vec3 standard) {
+    value.refuse("a projection matrix needs a \"view\" matrix");
+  const auto vector = [&](const char* key, Vec3 default_value) {
     const auto found = object.find(key);
-    return found ? found->vec3() : standard;
+    return found ? found->vec3() : default_value;
   };
-  const Vec3 eye = vector("eye", {0, 0, 4}), target = vector("target", {0, 0, 0}),
-             up = vector("up", {0, 1, 0});
+  const Vec3 eye = vector("eye", {0, 0, 4});
+  const Vec3 target = vector("target", {0, 0, 0});
+  const Vec3 up = vector("up", {0, 1, 0});
   camera.view = value.checked([&] { return look_at(eye, target, up); });
   if (projection) read_projection(*projection, camera);
   return camera;

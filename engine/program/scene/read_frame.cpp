@@ -1,4 +1,4 @@
-// What happens in a frame, in order.
+// Reads the commands of a frame, in order.
 #include <cstdint>
 #include <limits>
 #include <unordered_map>
@@ -25,12 +25,14 @@ struct NameList {
   }
 };
 
-// What the commands of a frame refer to.
+// The objects that commands of a frame refer to.
 struct Names {
-  NameList meshes{}, materials{}, textures{};
+  NameList meshes{};
+  NameList materials{};
+  NameList textures{};
   const Materials& material_of;
   const Scene& scene;
-  LightList lights;  // those in force
+  LightList lights;  // current lights
 };
 
 std::size_t read_name(const Value& value, std::string_view kind, const NameList& list) {
@@ -93,7 +95,7 @@ std::array<bool, 4> read_color_mask(const Value& value, const FrameBufferFormat&
   return mask;
 }
 
-// How the draw is shaded.
+// Material, lighting and texture of a draw.
 void read_shading(const Object& object, const Names& names, DrawState& state) {
   if (const auto material = object.find("material")) state.material = read_material_name(*material, names);
   if (const auto material = object.find("back_material"))
@@ -125,7 +127,7 @@ void read_shading(const Object& object, const Names& names, DrawState& state) {
   if (const auto color = object.find("texture_env_color")) state.texture_env_color = color->color();
 }
 
-// Where it goes and what it may touch.
+// Transform, facing and viewport of a draw.
 void read_target(const Object& object, DrawState& state) {
   if (const auto transform = object.find("transform")) state.transform = read_transform(*transform);
   if (const auto cull = object.find("cull"))
@@ -153,14 +155,14 @@ ShadowOn read_shadow_on(const Value& value, const LightList& lights) {
   return shadow;
 }
 
-// Of points and lines, in pixels.
+// Reads a point size or a line width, in pixels.
 float read_size(const Value& value) {
   const float size = value.real();
   if (!(size > 0)) value.fail("a number above 0");
   return size;
 }
 
-// One for both faces, or [front, back].
+// Reads one mode for both faces, or [front, back].
 void read_polygon_mode(const Value& value, DrawState& state) {
   const auto mode = [](const Value& v) {
     return v.choice<PolygonMode>(
@@ -206,7 +208,7 @@ Clear read_clear(const Value& value, const FrameBufferFormat& format) {
     if (format.color_mode != ColorMode::index)
       index->refuse("needs an index buffer: \"color\": {\"mode\": \"index\"}");
     clear.index = static_cast<std::uint32_t>(index->integer(0, kMaxUint32));
-    clear.color.reset();  // the index says it exactly
+    clear.color.reset();  // the index takes precedence
   }
   if (const auto depth = object.find("depth")) {
     if (format.depth == DepthFormat::none)
@@ -293,7 +295,8 @@ std::vector<SceneCommand> read_frame(const Value& value, const Scene& scene, con
 }
 
 std::vector<SceneCommand> default_frame(const Scene& scene) {
-  const bool has_depth = scene.framebuffer.depth != DepthFormat::none, reversed = scene.camera.reversed;
+  const bool has_depth = scene.framebuffer.depth != DepthFormat::none;
+  const bool reversed = scene.camera.reversed;
   Clear clear{.color = Color{0, 0, 0, 1}};
   if (has_depth) clear.depth = reversed ? 0 : 1;
   if (scene.framebuffer.stencil_bits > 0) clear.stencil = 0;

@@ -1,4 +1,4 @@
-// Meshes: built in, from a model file, or written in the scene.
+// Reads meshes: built in, from a model file, or written in the scene.
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -32,9 +32,7 @@ MeshData read_builtin(const Value& value) {
 MeshData read_file(const Value& value, const std::string& base_folder, ModelCache& cache, Scene& scene) {
   const Object object(value, {"file"});
   const Value file = object.require("file");
-  const std::filesystem::path path =
-      std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
-  cache.files.insert(path.string());
+  const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();
   auto model = cache.models.find(path.string());
   if (model == cache.models.end()) {
     model = cache.models
@@ -42,14 +40,13 @@ MeshData read_file(const Value& value, const std::string& base_folder, ModelCach
                   return import_model(path.string(), ModelUse::mesh, cache.should_continue);
                 }))
                 .first;
-    cache.files.insert(model->second.files.begin(), model->second.files.end());
   }
   scene.warnings.insert(scene.warnings.end(), model->second.warnings.begin(), model->second.warnings.end());
   return model->second.mesh;
 }
 
-// A list of vectors, flattened. Long lists are read without building a pointer for each number; only an error
-// asks for one.
+// Reads a list of vectors into a flat array. JSON pointers are built for errors only, which keeps long lists
+// fast.
 std::vector<float> read_vectors(const Value& list, std::size_t components) {
   std::vector<float> numbers;
   numbers.reserve(list.size() * components);
@@ -83,7 +80,7 @@ std::vector<float> read_color_indices(const Value& list, std::size_t vertices) {
   return indices;
 }
 
-// What makes no whole primitives is told at the list that is too long or too short.
+// Checks that the list makes whole primitives.
 void require_whole_primitives(const Value& list, Primitive primitive, const char* corners) {
   if (list.size() != 0 && makes_whole_primitives(primitive, list.size())) return;
   list.fail(std::string(corners_needed(primitive)) + " " + corners + ", for " +
@@ -104,6 +101,16 @@ std::vector<std::uint32_t> read_indices(const Value& list, std::size_t vertices,
   return indices;
 }
 
+int min_vertices(Primitive primitive) {
+  switch (primitive) {
+    case Primitive::points: return 1;
+    case Primitive::lines:
+    case Primitive::line_strip:
+    case Primitive::line_loop: return 2;
+    default: return 3;
+  }
+}
+
 MeshData read_inline(const Value& value) {
   const Object object(
       value, {"primitive", "positions", "normals", "colors", "color_indices", "texcoords", "indices"});
@@ -121,11 +128,10 @@ MeshData read_inline(const Value& value) {
                                                    {"quads", Primitive::quads},
                                                    {"quad_strip", Primitive::quad_strip},
                                                    {"polygon", Primitive::polygon}});
-  const bool makes_lines = mesh.primitive == Primitive::lines || mesh.primitive == Primitive::line_strip ||
-                           mesh.primitive == Primitive::line_loop;
-  const int least = mesh.primitive == Primitive::points ? 1 : makes_lines ? 2 : 3;
-  if (vertices == 0)
-    positions.fail("at least " + std::to_string(least) + (least == 1 ? " position" : " positions"));
+  if (vertices == 0) {
+    const int min_count = min_vertices(mesh.primitive);
+    positions.fail("at least " + std::to_string(min_count) + (min_count == 1 ? " position" : " positions"));
+  }
   mesh.position_components = positions.json()[0].is_array() && positions.json()[0].size() == 4 ? 4 : 3;
   mesh.positions = read_vectors(positions, static_cast<std::size_t>(mesh.position_components));
   mesh.normals = read_per_vertex(object, "normals", 3, vertices);
@@ -145,9 +151,10 @@ void read_meshes(const Value& value, const std::string& base_folder, ModelCache&
   value.for_each_member([&](const std::string& name, const Value& member) {
     const Object object(member, {"builtin", "detail", "file", "primitive", "positions", "normals", "colors",
                                  "color_indices", "texcoords", "indices"});
-    MeshData mesh = object.has("builtin") ? read_builtin(member)
-                    : object.has("file")  ? read_file(member, base_folder, models, scene)
-                                          : read_inline(member);
+    MeshData mesh;
+    if (object.has("builtin")) mesh = read_builtin(member);
+    else if (object.has("file")) mesh = read_file(member, base_folder, models, scene);
+    else mesh = read_inline(member);
     mesh.name = name;
     scene.meshes.push_back(std::move(mesh));
   });

@@ -1,4 +1,4 @@
-// What the fragments of a draw go through.
+// Reads the per-fragment operations of a draw.
 #include "engine/program/scene/read_scene.h"
 
 namespace tessera::program {

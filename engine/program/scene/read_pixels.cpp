@@ -1,4 +1,4 @@
-// Bitmaps and images.
+// Reads bitmaps and images.
 #include <filesystem>
 
 #include "engine/program/imageio/picture.h"
@@ -16,7 +16,7 @@ std::array<double, 2> read_two(const Value& value) {
   return value.numbers<2>();
 }
 
-// A number is where the pixels lie; anything else is a depth test.
+// A number is the depth of the pixels; anything else is a depth test, and the depth is 0.
 double read_raster_depth(const Object& object) {
   const auto depth = object.find("depth");
   if (!depth) return 0;
@@ -34,9 +34,7 @@ FragmentState read_state(const Object& object, const Scene& scene) {
 
 std::shared_ptr<const Picture> read_image_file(const Value& file, const std::string& base_folder,
                                                ModelCache& cache) {
-  const std::filesystem::path path =
-      std::filesystem::path(base_folder) / file.text();  // an absolute path stays as it is
-  cache.files.insert(path.string());
+  const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();
   auto picture = cache.pictures.find(path.string());
   if (picture == cache.pictures.end()) {
     const auto read = [&] {
@@ -48,11 +46,12 @@ std::shared_ptr<const Picture> read_image_file(const Value& file, const std::str
   return picture->second;
 }
 
+// Returns -1 for other characters.
 int hexadecimal_digit(char c) {
-  return c >= '0' && c <= '9'   ? c - '0'
-         : c >= 'a' && c <= 'f' ? c - 'a' + 10
-         : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                : -1;
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
 }
 
 }  // namespace
@@ -76,7 +75,8 @@ BitmapCommand read_bitmap(const Value& value, const Scene& scene) {
   BitmapCommand command;
   Bitmap& bitmap = command.bitmap;
   const auto [x, y] = read_two(object.require("at"));
-  bitmap.x = x, bitmap.y = y;
+  bitmap.x = x;
+  bitmap.y = y;
   bitmap.width = static_cast<int>(object.require("width").integer(1, kMaxFrameBufferSize));
   bitmap.height = static_cast<int>(object.require("height").integer(1, kMaxFrameBufferSize));
   const Value rows = object.require("rows");
@@ -97,10 +97,12 @@ ImageCommand read_image(const Value& value, const Scene& scene, const std::strin
   ImageCommand command;
   PixelImage& image = command.image;
   const auto [x, y] = read_two(object.require("at"));
-  image.x = x, image.y = y;
+  image.x = x;
+  image.y = y;
   if (const auto zoom = object.find("zoom")) {
     const auto [zoom_x, zoom_y] = read_two(*zoom);
-    image.zoom_x = zoom_x, image.zoom_y = zoom_y;
+    image.zoom_x = zoom_x;
+    image.zoom_y = zoom_y;
   }
   image.depth = read_raster_depth(object);
   command.state = read_state(object, scene);

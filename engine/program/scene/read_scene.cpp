@@ -1,5 +1,4 @@
-// The top level of a scene file: frame buffer, light model, lights, materials. The other parts have files of
-// their own.
+// Reads the top level of a scene file, frame buffer, light model, lights and materials.
 #include "engine/program/scene/read_scene.h"
 #include "engine/program/scene/animate.h"
 
@@ -226,7 +225,6 @@ SceneFile::SceneFile(const std::string& path, std::function<bool()> should_conti
     : content_(std::make_unique<Content>()) {
   content_->models.should_continue = std::move(should_continue);
   content_->path = path;
-  content_->models.files.insert(path);
   content_->json = json::parse(read_text_file(path), path);
   Json still = content_->json;
   content_->animated = json::animate(still, 0, path);
@@ -235,8 +233,6 @@ SceneFile::~SceneFile() = default;
 SceneFile::SceneFile(SceneFile&&) noexcept = default;
 
 bool SceneFile::is_animated() const { return content_->animated; }
-
-const std::set<std::string>& SceneFile::files() const { return content_->models.files; }
 
 Scene SceneFile::at(double time) {
   Json json = content_->json;

@@ -1,4 +1,4 @@
-// Textures, from image files or from the scene itself.
+// Reads textures from image files or from the scene itself.
 #include <algorithm>
 #include <filesystem>
 
@@ -36,7 +36,7 @@ TextureSampler read_sampler(const Object& object) {
   return sampler;
 }
 
-// Pictures hold four channels whatever their files have.
+// Extracts the channels of the file: pictures always store four.
 Texture texture_of(const Picture& picture, const TextureSampler& sampler) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   std::vector<std::uint8_t> pixels;
@@ -51,7 +51,7 @@ Texture texture_of(const Picture& picture, const TextureSampler& sampler) {
                  sampler);
 }
 
-// Rows from the top; the first one says how many texels wide they are.
+// Reads rows from the top; the first one determines the width.
 Texture read_texels(const Object& object, const TextureSampler& sampler) {
   const auto channels = static_cast<std::size_t>(object.require("channels").integer(1, 4));
   const Value rows = object.require("rows");
@@ -62,7 +62,7 @@ Texture read_texels(const Object& object, const TextureSampler& sampler) {
   std::vector<std::uint8_t> pixels;
   for (std::size_t i = 0; i < rows.size(); ++i)
     read_hexadecimal_row(rows.element(i), width * channels, pixels);
-  // One too many where there are more than fit: the texture says what it allows.
+  // Larger sizes are reduced to kMaxTextureSize + 1, which the texture refuses with its limit.
   const auto side = [](std::size_t texels) {
     return static_cast<int>(std::min<std::size_t>(texels, kMaxTextureSize + 1));
   };
@@ -81,10 +81,8 @@ std::shared_ptr<const Texture> read_texture(const Value& value, const std::strin
   const Object object = in_scene ? Object(value, {"channels", "rows", "mag", "min", "wrap_s", "wrap_t"})
                                  : Object(value, {"file", "mag", "min", "wrap_s", "wrap_t"});
   const TextureSampler sampler = read_sampler(object);
-  const std::string path = in_scene ? ""
-                                    : (std::filesystem::path(base_folder) / object.require("file").text())
-                                          .string();  // an absolute path stays as it is
-  if (!in_scene) cache.files.insert(path);
+  std::string path;
+  if (!in_scene) path = (std::filesystem::path(base_folder) / object.require("file").text()).string();
   std::string key = in_scene ? value.json().dump() : path;
   for (const int part : {static_cast<int>(sampler.mag), static_cast<int>(sampler.min),
                          static_cast<int>(sampler.wrap_s), static_cast<int>(sampler.wrap_t)})

@@ -8,7 +8,7 @@ struct Overloaded : Functions... {
   using Functions::operator()...;
 };
 
-// Calls run(); an Error gets the name of the scene and of the command in front.
+// Calls run(); prefixes the message of an Error with the names of scene and command.
 template <class Run>
 void at_command(const Scene& scene, const SceneCommand& command, const Run& run) {
   try {
@@ -18,7 +18,7 @@ void at_command(const Scene& scene, const SceneCommand& command, const Run& run)
   }
 }
 
-// A stored index is masked to the buffer's bits, a stencil value likewise.
+// Masks index and stencil value to the bits of the buffers.
 Clear masked(Clear clear, const FrameBufferFormat& format) {
   if (clear.index) *clear.index &= (std::uint32_t{1} << format.color_bits) - 1;
   if (clear.stencil) *clear.stencil &= (std::uint32_t{1} << format.stencil_bits) - 1;
@@ -36,17 +36,20 @@ Camera SceneCamera::at_aspect(double aspect) const {
   return {.view = view, .projection = matrix, .reversed = reversed};
 }
 
-int palette_bits(std::string_view name) { return name == "bw" ? 1 : name == "ega16" ? 4 : 8; }
+int palette_bits(std::string_view name) {
+  if (name == "bw") return 1;
+  if (name == "ega16") return 4;
+  return 8;
+}
 
 void apply(const SceneOverrides& overrides, Scene& scene) {
   FrameBufferFormat& format = scene.framebuffer;
   if (overrides.width) format.width = *overrides.width;
   if (overrides.height) format.height = *overrides.height;
-  if (format.width < 1 || format.width > kMaxFrameBufferSize || format.height < 1 ||
-      format.height > kMaxFrameBufferSize)
-    throw Error("the picture's size is " + std::to_string(format.width) + "x" +
-                std::to_string(format.height) + ", must be 1x1 .. " + std::to_string(kMaxFrameBufferSize) +
-                "x" + std::to_string(kMaxFrameBufferSize));
+  const auto is_valid_size = [](int size) { return size >= 1 && size <= kMaxFrameBufferSize; };
+  if (!is_valid_size(format.width) || !is_valid_size(format.height))
+    throw Error("the picture is " + std::to_string(format.width) + "x" + std::to_string(format.height) +
+                ", each side must be 1 to " + std::to_string(kMaxFrameBufferSize));
 
   if (overrides.palette) {
     const bool was_index = format.color_mode == ColorMode::index;
@@ -56,17 +59,17 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
   }
   if (overrides.color_bits) format.color_bits = *overrides.color_bits;
   if (format.color_bits < 1 || format.color_bits > 24)
-    throw Error("color bits are " + std::to_string(format.color_bits) + ", must be 1 .. 24");
+    throw Error("color bits are " + std::to_string(format.color_bits) + ", must be 1 to 24");
   if (!scene.palette_name.empty()) format.palette = named_palette(scene.palette_name, format.color_bits);
   if (format.palette.size() > std::size_t{1} << format.color_bits)
-    throw Error("the scene's palette has " + std::to_string(format.palette.size()) + " entries, " +
-                std::to_string(format.color_bits) + " color bits hold " +
-                std::to_string(1 << format.color_bits));
+    throw Error("the scene's palette has " + std::to_string(format.palette.size()) +
+                " entries, must be at most " + std::to_string(1 << format.color_bits) + " for " +
+                std::to_string(format.color_bits) + " color bits");
 
-  // What is overridden no longer changes within the frame.
+  // Overridden cameras and lights hold for the whole frame.
   if (overrides.camera) {
     const auto override_camera = [&](SceneCamera& camera) {
-      const bool reversed = camera.reversed;  // as the depth clears and tests are
+      const bool reversed = camera.reversed;  // the scene's depth clears and tests rely on it
       camera = *overrides.camera;
       camera.reversed = reversed;
     };

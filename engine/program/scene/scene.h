@@ -1,17 +1,15 @@
-// A scene: plain data with every default filled in and every name, path and angle resolved, and how it
-// becomes a Frame.
+// A scene: plain data with every default filled in and every name and path resolved. record() turns it into a
+// Frame:
 //
 //   Scene scene = load_scene("pot.json");
 //   FrameBuffer buffer(scene.framebuffer);
 //   Frame frame(buffer);
-//   record(scene, frame);                    // meshes, textures, bitmaps and images stay the scene's: it
-//   must outlive the frame
+//   record(scene, frame);  // the frame borrows from the scene, which must outlive it
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -24,13 +22,13 @@ namespace tessera::program {
 
 struct Picture;
 
-/// A perspective whose aspect is the picture's.
+/// A perspective projection with the aspect of the picture.
 struct Lens {
   double fovy = 45;              ///< degrees
   double near = 0.1, far = 100;  ///< far may be infinite
 };
 
-/// A camera that follows the size of the picture.
+/// A camera whose aspect follows the size of the picture.
 struct SceneCamera {
   Matrix view;
   std::variant<Lens, Matrix> projection;
@@ -44,13 +42,13 @@ struct DrawCommand {
   DrawState state;
 };
 struct BitmapCommand {
-  Bitmap bitmap;  ///< all but its bits
+  Bitmap bitmap;  ///< without bits
   std::vector<std::uint8_t> bits;
   FragmentState state;
   Bitmap view() const;
 };
 struct ImageCommand {
-  PixelImage image;  ///< all but its pixels
+  PixelImage image;  ///< without pixels and size
   std::shared_ptr<const Picture> picture;
   FragmentState state;
   PixelImage view() const;
@@ -60,73 +58,70 @@ using Command = std::variant<Clear, DrawCommand, BitmapCommand, ImageCommand, Ac
 
 struct SceneCommand {
   Command what;
-  std::string pointer;  ///< where it stands in the file, for messages; empty: the scene made it
+  std::string pointer;  ///< JSON pointer, for messages; empty: a command of the default frame
 };
 
 struct Scene {
   std::string name;  ///< the file, for messages
   std::string title;
   FrameBufferFormat framebuffer;
-  std::string palette_name;  ///< of a palette known by name; empty: by bits, or the scene's own entries
+  std::string palette_name;  ///< of a built-in palette; empty: determined by bits, or entries of the scene
   SceneCamera camera;
   LightModel light_model;
   LightList lights{Light{}};
   std::vector<MeshData> meshes;                          ///< in the order of the file
-  std::vector<std::shared_ptr<const Texture>> textures;  ///< likewise; draws point to them
+  std::vector<std::shared_ptr<const Texture>> textures;  ///< in the order of the file; draws point to them
   std::vector<SceneCommand> frame;
-  std::vector<std::string> warnings;  ///< what was odd, but no error
+  std::vector<std::string> warnings;
 };
 
-/// A scene file, format version 1, whose numbers may change over time. Paths in it are relative to it; models
-/// and images are read once, textures once for each sampler.
+/// A scene file of format version 1, whose numbers may change over time. Paths in it are relative to its
+/// folder. Models and images are read once, textures once per sampler.
 class SceneFile {
  public:
-  /// @param should_continue  asked while models are read; false ends it with Cancelled
-  /// @throws Error, naming file, JSON pointer, what was found and what was expected.
+  /// @param should_continue  polled while models are read; false throws Cancelled
+  /// @throws Error, naming file, JSON pointer, what was found and what was expected
   explicit SceneFile(const std::string& path, std::function<bool()> should_continue = {});
   ~SceneFile();
   SceneFile(SceneFile&&) noexcept;
-  /// @param time  0 .. 1 over an animation
+  /// Evaluates the scene at `time`, 0 .. 1.
   Scene at(double time);
-  /// Some number changes over time.
+  /// Returns whether any number changes over time.
   bool is_animated() const;
-  /// The files that scenes so far were read from: this one, images, models, and what models refer to, found
-  /// or not.
-  const std::set<std::string>& files() const;
 
  private:
   struct Content;
   std::unique_ptr<Content> content_;
 };
 
-/// The scene of a file, at its beginning.
+/// Reads the scene of a file at time 0.
 Scene load_scene(const std::string& path);
-/// The same from JSON text.
-/// @param name         the file's name in messages
-/// @param base_folder  what paths in the scene are relative to; empty: the current folder
+/// As above, from JSON text.
+/// @param name         name of the file, for messages
+/// @param base_folder  folder of relative paths in the scene; empty: the current folder
 Scene parse_scene(std::string_view text, const std::string& name, const std::string& base_folder = "");
-/// The shiny teapot, drawn when no scene is named.
+/// Returns the shiny teapot, which the program renders without an input.
 Scene builtin_scene();
 
-/// What a caller wants otherwise than the scene has it.
+/// Replacements for values of a scene; empty: the scene's own.
 struct SceneOverrides {
   std::optional<int> width = {}, height = {};
   std::optional<Shading> shading = {};  ///< of every draw
   std::optional<int> color_bits = {};
-  std::optional<std::string> palette = {};  ///< by name; turns the colour buffer into an index buffer
-  std::optional<SceneCamera> camera = {};   ///< for the whole frame; reversed where the scene's is
-  LightList lights = {};                    ///< for the whole frame; empty: the scene's
+  std::optional<std::string> palette = {};  ///< name; makes the colour buffer a colour-index buffer
+  std::optional<SceneCamera> camera = {};   ///< for the whole frame; keeps the scene's `reversed`
+  LightList lights = {};                    ///< for the whole frame
 };
-/// @throws Error for values out of range and for a palette that does not fit into the bits.
+/// @throws Error for values out of range and for a palette that does not fit into the colour bits
 void apply(const SceneOverrides& overrides, Scene& scene);
 
-/// The fewest colour bits that hold a palette known by name; 8 for one that fills any number of bits, or is
-/// unknown.
+/// Returns the fewest colour bits that hold a named palette; 8 for a palette of any number of bits or an
+/// unknown name.
 int palette_bits(std::string_view name);
 
-/// Replays the scene's commands. The frame borrows the scene's meshes, textures, bitmaps and images until it
+/// Records the scene's commands. The frame borrows meshes, textures, bitmaps and images of the scene until it
 /// is finished.
-/// @throws Error, naming the command.
+/// @throws Error, naming the command
 void record(const Scene& scene, Frame& frame);
 
 }  // namespace tessera::program

@@ -7,10 +7,11 @@
 namespace tessera::program {
 namespace {
 
-// Optimal string alignment distance, after V. Levenshtein and F. Damerau: two neighbours swapped count as one
-// change.
+// Optimal string alignment distance (Levenshtein, Damerau): swapping two neighbours counts as one change.
 std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
+  std::vector<std::size_t> before;  // the rows for i - 2, i - 1 and i
+  std::vector<std::size_t> last(b.size() + 1);
+  std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
@@ -28,8 +29,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> candidates) {
-  constexpr std::size_t kMaxNameLength =
-      64;  // longer ones are no typing mistake, and the distance costs length^2
+  constexpr std::size_t kMaxNameLength = 64;  // the distance costs length^2
   if (typed.empty() || typed.size() > kMaxNameLength) return {};
   std::string_view best;
   std::size_t best_distance = std::max<std::size_t>(1, typed.size() / 3) + 1;

@@ -1,4 +1,4 @@
-// "Did you mean ...": the nearest known name to a mistyped one.
+// Suggests the known name nearest to a mistyped one.
 #pragma once
 
 #include <span>
@@ -7,11 +7,11 @@
 
 namespace tessera::program {
 
-/// The candidate with the fewest changed, missing, added or swapped letters; empty if none is near (a third
-/// of the length).
+/// Returns the candidate with the fewest changed, missing, added or swapped letters; empty if these are more
+/// than a third of the letters typed.
 std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> candidates);
 
-/// `; did you mean "x"?`, or nothing.
+/// Returns `; did you mean "x"?`, or nothing.
 std::string did_you_mean(std::string_view typed, std::span<const std::string_view> candidates);
 
 }  // namespace tessera::program

@@ -1,5 +1,4 @@
-// A rectangular patch of quads on a surface that is given by a function: what all built-in meshes are made
-// of.
+// Tessellates a rectangular patch of a parametric surface. All built-in meshes consist of such patches.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +9,15 @@ namespace tessera::program {
 
 struct SurfacePoint {
   Vec3 position;
-  Vec3 normal;  ///< outwards, of unit length
+  Vec3 normal;  ///< outward, unit length
 };
 
-/// Appends (columns + 1) x (rows + 1) vertices, s and t their texture coordinates, and the triangles between
-/// them; each quad is split along the diagonal from its corner of lowest s and t. Triangles with two corners
-/// at one place (where a row collapses into a pole) are left out.
-///
-/// @param surface  called with (i, j), s = i / columns, t = j / rows; counter-clockwise where s grows to the
-/// right, t upwards.
+/// Appends (columns + 1) x (rows + 1) vertices with texture coordinates s and t, and the triangles between
+/// them.
+/// - Each quad is split along the diagonal from its corner of lowest s and t.
+/// - Triangles with two corners at one position (a row that collapses into a pole) are left out.
+/// - The front is where s grows to the right and t upwards.
+/// @param surface  returns the point at (i, j): s = i / columns, t = j / rows
 template <class Surface>
 void append_patch(MeshData& mesh, int columns, int rows, const Surface& surface) {
   const auto base = static_cast<std::uint32_t>(mesh.vertex_count());

@@ -1,5 +1,5 @@
-// Martin Newell's teapot from its bicubic Bezier patches, evaluated in double. Sums are symmetric in the
-// direction of a parameter, so that patches that share an edge have the very same vertices along it.
+// Martin Newell's teapot, evaluated from its bicubic Bezier patches in double. Sums are symmetric in the
+// direction of a parameter, so that patches have identical vertices along a shared edge.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace tessera::program {
 namespace {
 
 using Curve = std::array<Vec3, 4>;   // control points of a cubic
-using Patch = std::array<Curve, 4>;  // rows; t runs down them, s along each
+using Patch = std::array<Curve, 4>;  // rows; s runs along each, t from row to row
 
 Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
@@ -24,9 +24,11 @@ Vec3 operator*(double k, Vec3 a) { return {k * a.x, k * a.y, k * a.z}; }
 Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 double length(Vec3 a) { return std::hypot(a.x, a.y, a.z); }
 
-// A parameter and its complement: 1 - t would not round alike from both ends.
+// A parameter t and its complement 1 - t, both rounded from fractions: computing 1 - t would round
+// differently from the two ends.
 struct Parameter {
-  double t, rest;
+  double t;
+  double complement;
 };
 Parameter parameter(int i, int n) { return {static_cast<double>(i) / n, static_cast<double>(n - i) / n}; }
 
@@ -36,31 +38,32 @@ bool collapsed(const Curve& c) {
 }
 
 Vec3 point(const Curve& c, Parameter p) {
-  if (collapsed(c)) return c[0];  // the sum below could differ in the last bit from one t to the next
-  const double r = p.rest, t = p.t;
+  if (collapsed(c)) return c[0];  // the sum below could vary with t in the last bit
+  const double r = p.complement, t = p.t;
   return (r * r * r * c[0] + t * t * t * c[3]) + (3 * r * r * t * c[1] + 3 * t * t * r * c[2]);
 }
 
 Vec3 derivative(const Curve& c, Parameter p) {
-  const double r = p.rest, t = p.t;
+  const double r = p.complement, t = p.t;
   return 3 * r * r * (c[1] - c[0]) + 6 * r * t * (c[2] - c[1]) + 3 * t * t * (c[3] - c[2]);
 }
 
-// Each row reduced to one point (or derivative) at s; the four together are the curve that t runs along.
+// Reduces each row to its point (or derivative) at s: the control points of the curve along t.
 template <class Reduce>
 Curve across(const Patch& patch, Parameter s, const Reduce& reduce) {
   return {reduce(patch[0], s), reduce(patch[1], s), reduce(patch[2], s), reduce(patch[3], s)};
 }
 
-// dP/ds x dP/dt points out of the teapot. In a row that is one point dP/ds vanishes; just beside it dP/ds is
-// the way into the patch times d2P/dsdt, so the limit of the normal is that of d2P/dsdt x dP/dt (turned round
-// at the patch's far end).
+// dP/ds x dP/dt points outwards. dP/ds vanishes in a row that collapses to a point. At a small distance into
+// the patch it is that distance times d2P/dsdt, so the normal's limit is the direction of d2P/dsdt x dP/dt,
+// negated at the far end of the patch.
 Vec3 normal(const Patch& patch, Parameter s, Parameter t) {
-  const Curve points = across(patch, s, point), slopes = across(patch, s, derivative);
+  const Curve points = across(patch, s, point);
+  const Curve slopes = across(patch, s, derivative);
   const Vec3 along_t = derivative(points, t);
   Vec3 along_s = point(slopes, t);
   if (t.t == 0 && collapsed(patch[0])) along_s = derivative(slopes, t);
-  if (t.rest == 0 && collapsed(patch[3])) along_s = -1 * derivative(slopes, t);
+  if (t.complement == 0 && collapsed(patch[3])) along_s = -1 * derivative(slopes, t);
   const Vec3 n = cross(along_s, along_t);
   return (1 / length(n)) * n;
 }
@@ -68,11 +71,12 @@ Vec3 normal(const Patch& patch, Parameter s, Parameter t) {
 std::vector<Patch> read_patches() {
   std::istringstream file{std::string(kTeapotPatches)};
   for (std::string comment; file.peek() == '#';) std::getline(file, comment);
-  std::size_t patch_count = 0, point_count = 0;
+  std::size_t patch_count = 0;
   file >> patch_count;
   std::vector<std::array<std::size_t, 16>> corners(patch_count);
   for (auto& patch : corners)
     for (std::size_t& corner : patch) file >> corner;
+  std::size_t point_count = 0;
   file >> point_count;
   std::vector<Vec3> points(point_count);
   for (Vec3& p : points) file >> p.x >> p.y >> p.z;
@@ -86,7 +90,7 @@ std::vector<Patch> read_patches() {
   return patches;
 }
 
-// Where the vertices go: centred, the longest side spanning -1..1.
+// Centres the teapot and scales its longest side to -1..1.
 struct Placement {
   Vec3 centre;
   double scale = 1;
@@ -94,7 +98,8 @@ struct Placement {
 
 Placement placement(const std::vector<Patch>& patches, int detail) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+  Vec3 low{kInfinity, kInfinity, kInfinity};
+  Vec3 high{-kInfinity, -kInfinity, -kInfinity};
   for (const Patch& patch : patches)
     for (int i = 0; i <= detail; ++i) {
       const Curve curve = across(patch, parameter(i, detail), point);

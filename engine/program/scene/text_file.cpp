@@ -23,13 +23,13 @@ std::string read_text_file(const std::string& path, std::size_t max_bytes) {
     if (text.size() > max_bytes)
       throw Error("cannot read \"" + path + "\": it holds more than " + std::to_string(max_bytes) + " bytes");
   }
-  if (std::ferror(file.get())) fail(errno);  // a folder opens, and fails here
+  if (std::ferror(file.get())) fail(errno);  // folders can be opened, but not read
   return text;
 }
 
 void refuse_device_or_pipe(const std::string& path) {
   namespace fs = std::filesystem;
-  std::error_code unknown;  // what is missing is told by who reads it
+  std::error_code unknown;  // missing files are reported when they are read
   const fs::file_status status = fs::status(path, unknown);
   if (fs::is_other(status))
     throw Error("cannot read \"" + path + "\": it is a device or a pipe, expected a file");

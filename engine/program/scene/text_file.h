@@ -1,4 +1,4 @@
-// A whole file as text.
+// Reads whole files.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,14 @@
 
 namespace tessera::program {
 
-/// @throws Error, naming the file and the reason, for one that is missing, is a folder, cannot be read, or
-/// holds more than `max_bytes`.
+/// @throws Error, naming the file and the reason, if it is missing, a folder, unreadable, or larger than
+///   `max_bytes`
 std::string read_text_file(const std::string& path,
                            std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
 
-/// @throws Error for a device or a pipe, which may have no end. For files that other files name: what people
-/// type may be a pipe.
+/// Refuses devices and pipes, which may be endless, in the place of files named by other files. Paths on the
+/// command line may be pipes.
+/// @throws Error
 void refuse_device_or_pipe(const std::string& path);
 
 }  // namespace tessera::program

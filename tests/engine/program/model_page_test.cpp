@@ -1,5 +1,5 @@
-// The page of models in the README is what this version draws. TESSERA_WRITE_PAGE=1 writes it anew; then look
-// at it.
+// The picture of models that the documentation shows. TESSERA_WRITE_PAGE=1 writes it anew; check it by eye
+// then.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -37,7 +37,7 @@ Picture draw_page() {
   return page;
 }
 
-TEST(ModelPage, IsWhatTheReadmeShows) {
+TEST(ModelPage, MatchesCommittedPicture) {
   for (const std::string& model : test::page_models())
     ASSERT_TRUE(std::filesystem::exists(model)) << model << ": bash .ci/packages installs it";
   ASSERT_GE(test::page_models().size(), 15u);
@@ -47,7 +47,7 @@ TEST(ModelPage, IsWhatTheReadmeShows) {
   ASSERT_EQ(shown.width, page.width);
   ASSERT_EQ(shown.height, page.height);
   const auto row_bytes = 4 * static_cast<std::size_t>(page.width);
-  for (std::size_t i = 0; i < page.rgba.size(); i += i % 4 == 2 ? 2 : 1)  // alpha is not shown
+  for (std::size_t i = 0; i < page.rgba.size(); i += i % 4 == 2 ? 2 : 1)  // skips alpha
     ASSERT_EQ(page.rgba[i], shown.rgba[i]) << "row " << i / row_bytes << ", column " << i % row_bytes / 4;
 }
 

@@ -1,4 +1,4 @@
-// The program, started as its users start it.
+// Runs the program as its users do.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,10 +16,11 @@ namespace tessera {
 
 struct Result {
   int code = -1;
-  std::string out, err;
+  std::string out;
+  std::string err;
 };
 
-/// Runs TESSERA_PROGRAM in a folder of its own.
+/// Runs TESSERA_PROGRAM in a temporary folder.
 class Program : public testing::Test {
  protected:
   Program()
@@ -32,9 +33,9 @@ class Program : public testing::Test {
     const int code = code_of(arguments, "out.txt");
     return {code, content("out.txt"), content("err.txt")};
   }
-  /// Whether run_without_room() can be had here.
+  /// Returns whether run_without_room() works on this system.
   static bool has_full_disk() { return std::filesystem::is_character_file("/dev/full"); }
-  /// Its standard output is on a disk that has no room left.
+  /// Runs the program with its standard output on a full disk.
   Result run_without_room(const std::string& arguments) const {
     const int code = code_of(arguments, "/dev/full");
     return {code, "", content("err.txt")};

@@ -1,4 +1,4 @@
-// Pictures and planes in files.
+// Writing pictures and planes to files.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -53,7 +53,7 @@ Picture two_pixels() {
   return picture;
 }
 
-TEST_F(PictureFile, NetpbmAndRawAreWrittenByteForByte) {
+TEST_F(PictureFile, WritesNetpbmAndRawByteForByte) {
   const Picture picture = two_pixels();
   write_picture(picture, path("a.ppm"));
   EXPECT_EQ(content(path("a.ppm")), std::string("P6\n2 1\n255\n\xff\0\x0a\x01\x02\x03", 17));
@@ -65,19 +65,19 @@ TEST_F(PictureFile, NetpbmAndRawAreWrittenByteForByte) {
   EXPECT_EQ(files_in_folder(), 3u);
 }
 
-TEST_F(PictureFile, APlaneIsAPbmWithoutWhatLiesBesideThePicture) {
-  const std::array<std::uint8_t, 6> bits{0xa5, 0xff, 0x77,
-                                         0x01, 0xff, 0x77};  // 2 rows of 10 pixels, 3 bytes apart
+TEST_F(PictureFile, PlanePbmClearsPaddingBits) {
+  // 2 rows of 10 pixels, 3 bytes apart.
+  const std::array<std::uint8_t, 6> bits{0xa5, 0xff, 0x77, 0x01, 0xff, 0x77};
   write_plane({.bits = bits.data(), .width = 10, .height = 2, .stride_bytes = 3}, path("plane.pbm"));
   EXPECT_EQ(content(path("plane.pbm")), "P4\n10 2\n\xa5\xc0\x01\xc0");
 }
 
-TEST_F(PictureFile, AnExistingFileIsReplacedAndAFailureLeavesIt) {
+TEST_F(PictureFile, ReplacesFilesAtomically) {
   write_picture(two_pixels(), path("a.ppm"));
   write_picture(Picture(1, 1), path("a.ppm"));
   EXPECT_EQ(content(path("a.ppm")).size(), 14u);
 
-  // A limit on the size of files stands for a full disk.
+  // A limit on the file size simulates a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   rlimit before;
   ::getrlimit(RLIMIT_FSIZE, &before);
@@ -90,7 +90,7 @@ TEST_F(PictureFile, AnExistingFileIsReplacedAndAFailureLeavesIt) {
   EXPECT_EQ(files_in_folder(), 1u);
 }
 
-TEST_F(PictureFile, ALinkStaysALink) {
+TEST_F(PictureFile, KeepsSymbolicLinks) {
   write_picture(Picture(1, 1), path("real.ppm"));
   fs::create_symlink("real.ppm", folder_ / "link.ppm");
   write_picture(two_pixels(), path("link.ppm"));
@@ -100,11 +100,11 @@ TEST_F(PictureFile, ALinkStaysALink) {
   fs::remove(folder_ / "real.ppm");
   write_picture(two_pixels(), path("to_link.ppm"));
   EXPECT_TRUE(fs::is_symlink(folder_ / "to_link.ppm") && fs::is_symlink(folder_ / "link.ppm"));
-  EXPECT_EQ(content(path("real.ppm")).size(), 17u) << "links to what is not there yet";
+  EXPECT_EQ(content(path("real.ppm")).size(), 17u) << "links to a missing file";
 }
 
-// What /proc calls it is not its name.
-TEST_F(PictureFile, AFileThatIsOpenIsWrittenToWithoutItsName) {
+// The target of a link in /proc is not a path.
+TEST_F(PictureFile, WritesDirectlyToOpenFiles) {
   const int opened = ::open(path("a.ppm").c_str(), O_RDWR | O_CREAT, 0600);
   ASSERT_GE(opened, 0);
   fs::remove(path("a.ppm"));
@@ -116,10 +116,10 @@ TEST_F(PictureFile, AFileThatIsOpenIsWrittenToWithoutItsName) {
   EXPECT_EQ(files_in_folder(), 1u);
 }
 
-TEST_F(PictureFile, WhatCannotBeWrittenIsNamed) {
+TEST_F(PictureFile, NamesUnwritableFiles) {
   const Picture picture(1, 1);
   EXPECT_NE(message_of(picture, path("no/folder/a.ppm")).find("there is no folder"), std::string::npos);
-  EXPECT_NE(message_of(picture, path("noending")).find("no ending"), std::string::npos);
+  EXPECT_NE(message_of(picture, path("noending")).find("no extension"), std::string::npos);
   EXPECT_NE(message_of(picture, path("a.pbm")).find(".ppm"), std::string::npos);
   fs::create_directories(folder_ / "folder.ppm");
   EXPECT_NE(message_of(picture, path("folder.ppm")).find("Is a directory"), std::string::npos);
@@ -132,22 +132,22 @@ TEST_F(PictureFile, WhatCannotBeWrittenIsNamed) {
   }
 }
 
-// As an ordinary user: root may write everywhere.
-TEST_F(PictureFile, AReadOnlyFolderIsAnErrorAndLosesNothing) {
+// Runs as an ordinary user, because root may write everywhere.
+TEST_F(PictureFile, ReportsReadOnlyFolderWithoutLoss) {
   write_picture(two_pixels(), path("old.ppm"));
   const std::string before = content(path("old.ppm"));
   fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::group_read |
                                fs::perms::group_exec | fs::perms::others_read | fs::perms::others_exec);
-  const std::string said = run_in_child("writing", {}, [&] {
-    if (::geteuid() == 0 && ::setuid(65534) != 0) return std::string("cannot become nobody");
+  const std::string messages = run_in_child("writing", {}, [&] {
+    if (::geteuid() == 0 && ::setuid(65534) != 0) return std::string("setuid failed");
     return message_of(Picture(3, 3), path("new.ppm")) + "\n" + message_of(Picture(3, 3), path("old.ppm"));
   });
   fs::permissions(folder_, fs::perms::owner_all);
-  const std::string first = said.substr(0, said.find('\n'));
+  const std::string first = messages.substr(0, messages.find('\n'));
   EXPECT_TRUE(first.find("new.ppm") != std::string::npos &&
               first.find("Permission denied") != std::string::npos)
-      << said;
-  EXPECT_TRUE(said.find("old.ppm") != std::string::npos) << said;
+      << messages;
+  EXPECT_TRUE(messages.find("old.ppm") != std::string::npos) << messages;
   EXPECT_EQ(content(path("old.ppm")), before);
   EXPECT_EQ(files_in_folder(), 1u);
 }

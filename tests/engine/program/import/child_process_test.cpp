@@ -1,4 +1,4 @@
-// Work in a process of its own, and what comes back of it.
+// Child processes with limits, and the models they send back.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -14,7 +14,7 @@ namespace tessera {
 using namespace program;
 namespace {
 
-TEST(ChildProcess, IsStoppedByItsLimitsAndSaysWhy) {
+TEST(ChildProcess, EnforcesLimitsAndReportsReason) {
   const auto message = [](const ChildLimits& limits, const std::function<std::string()>& work) {
     try {
       return "result " + run_in_child("file", limits, work);
@@ -39,12 +39,12 @@ TEST(ChildProcess, IsStoppedByItsLimitsAndSaysWhy) {
                     }),
             "file was interrupted");
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
-  EXPECT_NE(message({}, []() -> std::string { std::abort(); }).find("broke down"), std::string::npos);
+  EXPECT_NE(message({}, []() -> std::string { std::abort(); }).find("crashed"), std::string::npos);
   EXPECT_NE(message({.result_bytes = 1 << 20}, [] { return std::string(3 << 20, 'x'); })
-                .find("gives 3 MiB, at most 1 MiB"),
+                .find("gives 3 MiB, must be at most 1 MiB"),
             std::string::npos);
   EXPECT_NE(message({}, []() -> std::string { throw std::bad_alloc(); }).find("1024 MiB"), std::string::npos);
-  EXPECT_NE(message({}, []() -> std::string { throw 3; }).find("no known kind"), std::string::npos);
+  EXPECT_NE(message({}, []() -> std::string { throw 3; }).find("unknown type"), std::string::npos);
   EXPECT_NE(message({},
                     []() -> std::string {
                       ::raise(SIGINT);
@@ -81,11 +81,10 @@ Model small_model() {
                         .spot_cutoff = 12,
                         .attenuation_quadratic = 2}};
   model.ambient_light = Color{4, 3, 2, 1};
-  model.files = {"a.png", "", "b c.mtl"};
   return model;
 }
 
-TEST(ModelBytes, ComeBackAsTheModelTheyWere) {
+TEST(ModelBytes, RoundTrips) {
   const std::string bytes = to_bytes(small_model());
   const Model back = model_from_bytes(bytes, "file");
   EXPECT_EQ(to_bytes(back), bytes);
@@ -101,15 +100,14 @@ TEST(ModelBytes, ComeBackAsTheModelTheyWere) {
   EXPECT_EQ(back.lights.at(0).position, (std::array<float, 4>{9, 8, 7, 6}));
   EXPECT_EQ(back.lights.at(0).attenuation_quadratic, 2);
   EXPECT_EQ(back.ambient_light->g, 3);
-  EXPECT_EQ(back.files, small_model().files);
 }
 
-TEST(ModelBytes, OfABrokenProcessAreRefused) {
+TEST(ModelBytes, RejectsInvalidBytes) {
   const auto refused = [](const std::string& bytes) {
     try {
       model_from_bytes(bytes, "file");
     } catch (const Error& error) {
-      EXPECT_EQ(std::string(error.what()), "file: the reading process sent no sound model");
+      EXPECT_EQ(std::string(error.what()), "file: the reading process sent an invalid model");
       return true;
     }
     return false;
@@ -117,7 +115,7 @@ TEST(ModelBytes, OfABrokenProcessAreRefused) {
   const std::string bytes = to_bytes(small_model());
   for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_TRUE(refused(bytes.substr(0, size))) << size;
   EXPECT_TRUE(refused(bytes + "x"));
-  void (*const kUnsound[])(Model&) = {[](Model& m) { m.mesh.indices[4] = 2; },
+  void (*const kInvalid[])(Model&) = {[](Model& m) { m.mesh.indices[4] = 2; },
                                       [](Model& m) { m.mesh.positions.pop_back(); },
                                       [](Model& m) { m.mesh.normals.push_back(0); },
                                       [](Model& m) { m.mesh.colors.pop_back(); },
@@ -126,26 +124,26 @@ TEST(ModelBytes, OfABrokenProcessAreRefused) {
                                       [](Model& m) { m.parts[1].index_count = 6; },
                                       [](Model& m) { m.parts[1].index_count = ~std::size_t{0} - 2; },
                                       [](Model& m) { m.parts.pop_back(); }};
-  for (const auto& spoil : kUnsound) {
+  for (const auto& invalidate : kInvalid) {
     Model model = small_model();
-    spoil(model);
-    EXPECT_TRUE(refused(to_bytes(model))) << &spoil - kUnsound;
+    invalidate(model);
+    EXPECT_TRUE(refused(to_bytes(model))) << &invalidate - kInvalid;
   }
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)  // they need more memory than a limit leaves
-TEST(ModelBytes, OfABrokenProcessTakeNoMoreMemoryThanTheyAreLong) {
+// Sanitizers need more memory than the limit leaves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(ModelBytes, AllocatesNoMoreThanTheInputHolds) {
   constexpr std::size_t kParts = 16 << 20;
   std::string bytes(40, '\0');  // five empty arrays, then parts
   bytes.append(reinterpret_cast<const char*>(&kParts), sizeof kParts);
-  bytes.append(kParts, '\xff');  // the name of the first is longer than all that follows
+  bytes.append(kParts, '\xff');  // the first name claims to be longer than the rest
   try {
     run_in_child("reading", {.memory_bytes = 256 << 20},
                  [&] { return to_bytes(model_from_bytes(bytes, "file")); });
-    FAIL() << "bytes of no model became one";
+    FAIL() << "invalid bytes were accepted";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "file: the reading process sent no sound model");
+    EXPECT_STREQ(error.what(), "file: the reading process sent an invalid model");
   }
 }
 #endif

@@ -1,4 +1,4 @@
-// glTF 2 files written here from its specification: nodes, cameras, lights, materials.
+// Imports glTF 2 files written from the specification: nodes, cameras, lights, materials.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,8 @@ class GltfImport : public testing::Test {
   }
   ~GltfImport() override { fs::remove_all(folder_); }
 
-  // One triangle (0 0 0), (1 0 0), (0 1 0) as mesh 0 with material 0; `members` are the rest of the file.
+  // Imports one triangle (0 0 0), (1 0 0), (0 1 0) as mesh 0 with material 0; `members` is the rest of the
+  // file.
   Model imported(const std::string& members, ModelUse use = ModelUse::mesh,
                  const std::string& attributes = R"("POSITION": 0)") const {
     const float numbers[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, /* colours */ 1, 1, 1, 0.5f, 0.5f, 0.5f, 0, 0, 1};
@@ -33,8 +34,10 @@ class GltfImport : public testing::Test {
     std::ofstream(folder_ / "t.gltf")
         << R"({"asset": {"version": "2.0"}, "scene": 0, "meshes": [{"primitives": [{"attributes": {)"
         << attributes << R"(}, "material": 0}]}],
-      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}, {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3"}],
-      "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 36}], "buffers": [{"uri": "t.bin", "byteLength": 72}], )"
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+    "max": [1, 1, 0]}, {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3"}],
+      "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 36}],
+    "buffers": [{"uri": "t.bin", "byteLength": 72}], )"
         << members << "}";
     return import_model((folder_ / "t.gltf").string(), use);
   }
@@ -48,15 +51,23 @@ class GltfImport : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(GltfImport, NodesCamerasAndLights) {
+TEST_F(GltfImport, ReadsNodesCamerasAndLights) {
   const Model model = imported(
-      R"("scenes": [{"nodes": [0, 1, 2, 3, 4, 5]}], "materials": [{"name": "m"}], "extensionsUsed": ["KHR_lights_punctual"],
-    "extensions": {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 3, "color": [1, 0.5, 0]}, {"type": "point", "intensity": 10}, {"type": "spot", "intensity": 5, "spot": {"outerConeAngle": 0.5}}]}},
-    "nodes": [{"mesh": 0, "translation": [5, 0, 0], "scale": [2, 2, 2]}, {"camera": 0, "translation": [0, 0, 7]},
-              {"extensions": {"KHR_lights_punctual": {"light": 0}}}, {"extensions": {"KHR_lights_punctual": {"light": 1}}, "translation": [1, 2, 3]},
-              {"extensions": {"KHR_lights_punctual": {"light": 2}}}, {"camera": 1, "rotation": [0, 0.7071067811865476, 0, 0.7071067811865476]}],
-    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "aspectRatio": 1.5, "znear": 0.5, "zfar": 50}},
-                {"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.25, "zfar": 9}}])");
+      R"("scenes": [{"nodes": [0, 1, 2, 3, 4, 5]}], "materials": [{"name": "m"}],
+    "extensionsUsed": ["KHR_lights_punctual"],
+    "extensions": {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 3,
+    "color": [1, 0.5, 0]}, {"type": "point", "intensity": 10}, {"type": "spot", "intensity": 5,
+    "spot": {"outerConeAngle": 0.5}}]}},
+    "nodes": [{"mesh": 0, "translation": [5, 0, 0], "scale": [2, 2, 2]}, {"camera": 0,
+    "translation": [0, 0, 7]},
+              {"extensions": {"KHR_lights_punctual": {"light": 0}}},
+    {"extensions": {"KHR_lights_punctual": {"light": 1}}, "translation": [1, 2, 3]},
+              {"extensions": {"KHR_lights_punctual": {"light": 2}}}, {"camera": 1,
+    "rotation": [0, 0.7071067811865476, 0, 0.7071067811865476]}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "aspectRatio": 1.5, "znear": 0.5,
+    "zfar": 50}},
+                {"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.25,
+    "zfar": 9}}])");
   ASSERT_EQ(model.mesh.vertex_count(), 3u);
   EXPECT_FLOAT_EQ(*std::max_element(model.mesh.positions.begin(), model.mesh.positions.end()), 7)
       << "5 + 2 * 1";
@@ -81,30 +92,33 @@ TEST_F(GltfImport, NodesCamerasAndLights) {
   EXPECT_EQ(model_scene(model, "t", 64, 48).lights.size(), 3u);
 }
 
-TEST_F(GltfImport, AnIndexThatIsNoneIsTold) {
+TEST_F(GltfImport, WarnsOfInvalidIndex) {
   const Model model = imported(
-      R"("scenes": [{"nodes": [0, 1, -1]}], "nodes": [{"mesh": 0}, {"camera": 0}], "materials": [{"name": "m"}],
-    "cameras": [{"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.25, "zfar": 9}}])");
-  EXPECT_EQ(model.cameras.size(), 1u) << "what stands before it is kept";
+      R"("scenes": [{"nodes": [0, 1, -1]}], "nodes": [{"mesh": 0}, {"camera": 0}],
+    "materials": [{"name": "m"}],
+    "cameras": [{"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.25,
+    "zfar": 9}}])");
+  EXPECT_EQ(model.cameras.size(), 1u) << "earlier cameras are kept";
   ASSERT_EQ(model.warnings.size(), 1u);
-  EXPECT_EQ(
-      model.warnings[0],
-      (folder_ / "t.gltf").string() +
-          ": its cameras and lights cannot all be read: found -1, expected the index of one of 2 nodes");
+  EXPECT_EQ(model.warnings[0], (folder_ / "t.gltf").string() +
+                                   ": not all of its cameras and lights could be read: found -1, expected "
+                                   "the index of one of 2 nodes");
 }
 
-// The first "asset" counts for assimp, the last one for who reads cameras and lights beside it: not of glTF
-// 2, so assimp's stay.
-TEST_F(GltfImport, AnAssetThatIsAnArrayHasNoVersion) {
+// assimp uses the first "asset", gltf_view the last one. The latter is not glTF 2, so assimp's cameras are
+// kept.
+TEST_F(GltfImport, IgnoresVersionInsideArray) {
   const Model model = imported(
-      R"("asset": [{"version": "2.0"}], "scenes": [{"nodes": [0, 1]}], "materials": [{"name": "m"}], "nodes": [{"mesh": 0}, {"camera": 0}],
-    "cameras": [{"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.25, "zfar": 9}}])");
+      R"("asset": [{"version": "2.0"}], "scenes": [{"nodes": [0, 1]}], "materials": [{"name": "m"}],
+    "nodes": [{"mesh": 0}, {"camera": 0}],
+    "cameras": [{"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.25,
+    "zfar": 9}}])");
   EXPECT_EQ(model.mesh.vertex_count(), 3u);
   EXPECT_EQ(model.cameras.size(), 1u);
 }
 
 // glTF's v runs downwards, t upwards.
-TEST_F(GltfImport, TextureCoordinatesAreTurned) {
+TEST_F(GltfImport, FlipsTextureCoordinates) {
   const Model model =
       imported(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "materials": [{"name": "m"}])",
                ModelUse::mesh, R"("POSITION": 0, "TEXCOORD_0": 1)");
@@ -122,13 +136,17 @@ TEST_F(GltfImport, TextureCoordinatesAreTurned) {
                   .mesh.texcoords.empty());
 }
 
-// What two nodes share stands at both, whatever they are called.
-TEST_F(GltfImport, SharedAndNamesakeLightsAndCameras) {
+// A camera or light shared by two nodes appears at both, even if the nodes have the same name.
+TEST_F(GltfImport, KeepsSharedAndEquallyNamedLightsAndCameras) {
   const Model model = imported(
-      R"("scenes": [{"nodes": [0, 1, 2, 3]}], "materials": [{"name": "m"}], "extensionsUsed": ["KHR_lights_punctual"],
-    "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}, "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
-    "nodes": [{"mesh": 0}, {"name": "Lamp", "translation": [1, 0, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}},
-              {"name": "Lamp", "translation": [2, 0, 0], "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}, {"translation": [3, 0, 0], "camera": 0}])");
+      R"("scenes": [{"nodes": [0, 1, 2, 3]}], "materials": [{"name": "m"}],
+    "extensionsUsed": ["KHR_lights_punctual"],
+    "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}},
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
+    "nodes": [{"mesh": 0}, {"name": "Lamp", "translation": [1, 0, 0],
+    "extensions": {"KHR_lights_punctual": {"light": 0}}},
+              {"name": "Lamp", "translation": [2, 0, 0], "camera": 0,
+    "extensions": {"KHR_lights_punctual": {"light": 0}}}, {"translation": [3, 0, 0], "camera": 0}])");
   ASSERT_EQ(model.lights.size(), 2u);
   EXPECT_FLOAT_EQ(model.lights[0].position[0], 1);
   EXPECT_FLOAT_EQ(model.lights[1].position[0], 2);
@@ -136,63 +154,56 @@ TEST_F(GltfImport, SharedAndNamesakeLightsAndCameras) {
   EXPECT_NEAR(model.cameras[1].view.m[3], -3, 1e-6);
 }
 
-TEST_F(GltfImport, MaterialsByTheRule) {
+TEST_F(GltfImport, ConvertsMaterials) {
   const Material m = material(
-      R"({"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1], "metallicFactor": 0, "roughnessFactor": 0.5}, "emissiveFactor": [0, 0, 0.125]})");
+      R"({"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1], "metallicFactor": 0,
+    "roughnessFactor": 0.5}, "emissiveFactor": [0, 0, 0.125]})");
   EXPECT_FLOAT_EQ(m.diffuse.g, 0.25f);
   EXPECT_FLOAT_EQ(m.ambient.b, 1);
   EXPECT_FLOAT_EQ(m.specular.r, 0.02f) << "0.04 / (1 + 4 / 4)";
   EXPECT_FLOAT_EQ(m.shininess, 30) << "2 / 0.5^4 - 2";
   EXPECT_FLOAT_EQ(m.emission.b, 0.125f);
   const Material metal = material(
-      R"({"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1], "metallicFactor": 1, "roughnessFactor": 0}})");
+      R"({"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1], "metallicFactor": 1,
+    "roughnessFactor": 0}})");
   EXPECT_FLOAT_EQ(metal.specular.g, 0.25f);
   EXPECT_FLOAT_EQ(metal.shininess, 1024);
   const Material glossy = material(
-      R"({"extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.1, 0.2, 0.3, 1], "specularFactor": [0.5, 0.6, 0.7], "glossinessFactor": 0.5}}})",
+      R"({"extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.1, 0.2, 0.3, 1],
+    "specularFactor": [0.5, 0.6, 0.7], "glossinessFactor": 0.5}}})",
       R"(, "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness"])");
   EXPECT_FLOAT_EQ(glossy.diffuse.g, 0.2f);
   EXPECT_FLOAT_EQ(glossy.specular.b, 0.35f) << "0.7 / (1 + 4 / 4)";
   EXPECT_FLOAT_EQ(glossy.shininess, 30);
   const Material unlit = material(
-      R"({"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1]}, "extensions": {"KHR_materials_unlit": {}}})",
+      R"({"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1]},
+    "extensions": {"KHR_materials_unlit": {}}})",
       R"(, "extensionsUsed": ["KHR_materials_unlit"])");
   EXPECT_FLOAT_EQ(unlit.emission.g, 0.25f);
   EXPECT_FLOAT_EQ(unlit.diffuse.g, 0);
 }
 
-// What stands in the file itself is none. A name with a %20 may also be just that.
-TEST_F(GltfImport, TellsWhatTheModelRefersTo) {
-  const Model model = imported(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-    "images": [{"uri": "sub/base.png"}, {"uri": "a%20normal.png"}, {"uri": "data:image/png;base64,AAAA"}, {"uri": "back\\slash.png"}, {"uri": "unused.png"}, {"uri": 3}, {"uri": ""}, 4, {"uri": "%4"}],
-    "textures": [{"source": 0}, {"source": 1}, {"source": 2}, {"source": 3}, {"source": 4}],
-    "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "normalTexture": {"index": 1}, "emissiveTexture": {"index": 2}}, {"occlusionTexture": {"index": 3}}, {"emissiveTexture": {"index": 4}}])");
-  std::vector<std::string> expected;
-  for (const char* name : {"%4", "a normal.png", "a%20normal.png", "back/slash.png", "back\\slash.png",
-                           "sub/base.png", "t.bin", "unused.png"})
-    expected.push_back((folder_ / name).string());
-  EXPECT_EQ(model.files, expected);
-}
-
-TEST_F(GltfImport, PicturesThatAreLeftOutAreTold) {
+TEST_F(GltfImport, WarnsOfTexturesAndTransparency) {
   const Model model = imported(
-      R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "textures": [{"source": 0}], "images": [{"uri": "none.png"}],
+      R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "textures": [{"source": 0}],
+    "images": [{"uri": "none.png"}],
     "materials": [{"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}, "alphaMode": "BLEND"}])");
-  EXPECT_FLOAT_EQ(model.parts.at(0).material.emission.r, 0) << "the picture says where it shines";
+  EXPECT_FLOAT_EQ(model.parts.at(0).material.emission.r, 0) << "the texture modulates the emission";
   ASSERT_EQ(model.warnings.size(), 2u);
   EXPECT_NE(model.warnings[0].find("textures of models are not supported"), std::string::npos);
   EXPECT_NE(model.warnings[1].find("transparency is not supported"), std::string::npos);
 }
 
-TEST_F(GltfImport, VertexColorsAreFactorsAndMirroredNodesKeepTheirOutside) {
+TEST_F(GltfImport, MultipliesVertexColorsAndKeepsWindingOfMirroredNodes) {
   const Model model = imported(
-      R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [-1, 1, 1]}], "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 1, 1]}}])",
+      R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [-1, 1, 1]}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 1, 1]}}])",
       ModelUse::display, R"("POSITION": 0, "COLOR_0": 1)");
   ASSERT_EQ(model.mesh.colors.size(), 12u);
   EXPECT_TRUE(model.parts.at(0).uses_colors);
   EXPECT_FLOAT_EQ(model.mesh.colors[0], 0.5f);
   EXPECT_FLOAT_EQ(model.mesh.colors[4], 0.25f);
-  // The mirror image, still seen from +z.
+  // The mirrored triangle still faces +z.
   double area = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const float* const a = &model.mesh.positions[3 * model.mesh.indices[k]];

@@ -1,4 +1,4 @@
-// Cameras and lights of glTF 2 as they are read beside assimp, which would refuse some of these files first.
+// Cameras and lights of glTF 2 files, read without assimp, which would reject some of these files.
 #include <gtest/gtest.h>
 
 #include "engine/program/import/gltf_view.h"
@@ -13,7 +13,8 @@ constexpr const char* kOrthographic =
 Model view_of(const std::string& members, const std::string& camera = kOrthographic) {
   Model model;
   EXPECT_TRUE(add_gltf_view_of_bytes(
-      R"({"asset": {"version": "2.0"}, "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}, {"type": "point"}]}},
+      R"({"asset": {"version": "2.0"}, "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"},
+    {"type": "point"}]}},
     "cameras": [)" +
           camera + "], " + members + "}",
       model))
@@ -21,47 +22,50 @@ Model view_of(const std::string& members, const std::string& camera = kOrthograp
   return model;
 }
 
-// Where @ stands, an index of `kind`; node 0, whose camera is kept, comes before it.
-void expect_told(std::string members, const std::string& kind, std::size_t length, std::size_t cameras) {
+// Replaces @ by invalid indices of `kind`. Cameras of earlier nodes are kept.
+void expect_warning(std::string members, const std::string& kind, std::size_t length, std::size_t cameras) {
   const auto with = [&](const std::string& index) {
     return std::string(members).replace(members.find('@'), 1, index);
   };
   const Model whole = view_of(with(std::to_string(length - 1)));
   EXPECT_TRUE(whole.warnings.empty()) << whole.warnings[0];
-  const std::string deep = std::string(100000, '[') + std::string(100000, ']'), end = std::to_string(length);
-  const std::pair<std::string, std::string> none[] = {{"1e+308", "1e+308"},
-                                                      {"-1e+308", "-1e+308"},
-                                                      {"-1", "-1"},
-                                                      {"0.5", "0.5"},
-                                                      {"1.0", "1.0"},
-                                                      {"18446744073709551615", "18446744073709551615"},
-                                                      {"18446744073709551616", "1.8446744073709552e+19"},
-                                                      {end, end},
-                                                      {"\"0\"", "string"},
-                                                      {"true", "boolean"},
-                                                      {"null", "null"},
-                                                      {deep, "array"}};
-  for (const auto& [index, found] : none) {
+  const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+  const std::string end = std::to_string(length);
+  const std::pair<std::string, std::string> kInvalid[] = {{"1e+308", "1e+308"},
+                                                          {"-1e+308", "-1e+308"},
+                                                          {"-1", "-1"},
+                                                          {"0.5", "0.5"},
+                                                          {"1.0", "1.0"},
+                                                          {"18446744073709551615", "18446744073709551615"},
+                                                          {"18446744073709551616", "1.8446744073709552e+19"},
+                                                          {end, end},
+                                                          {"\"0\"", "string"},
+                                                          {"true", "boolean"},
+                                                          {"null", "null"},
+                                                          {deep, "array"}};
+  for (const auto& [index, found] : kInvalid) {
     const Model model = view_of(with(index));
     EXPECT_EQ(model.cameras.size(), cameras) << members << " with " << index.substr(0, 40);
     ASSERT_EQ(model.warnings.size(), 1u) << members << " with " << index.substr(0, 40);
-    EXPECT_EQ(model.warnings[0], "its cameras and lights cannot all be read: found " + found +
+    EXPECT_EQ(model.warnings[0], "not all of its cameras and lights could be read: found " + found +
                                      ", expected the index of one of " + std::to_string(length) + " " + kind);
   }
 }
 
-TEST(GltfView, IndicesThatNameNothingAreTold) {
-  expect_told(R"("scene": @, "scenes": [{"nodes": [0]}], "nodes": [{"camera": 0}])", "scenes", 1, 0);
-  expect_told(R"("scenes": [{"nodes": [0, @]}], "nodes": [{"camera": 0}, {}])", "nodes", 2, 1);
-  expect_told(R"("scenes": [{"nodes": [0]}], "nodes": [{"camera": 0, "children": [1, @]}, {}, {}])", "nodes",
-              3, 1);
-  expect_told(R"("scenes": [{"nodes": [0, 1]}], "nodes": [{"camera": 0}, {"camera": @}])", "cameras", 1, 1);
-  expect_told(
-      R"("scenes": [{"nodes": [0, 1]}], "nodes": [{"camera": 0}, {"extensions": {"KHR_lights_punctual": {"light": @}}}])",
+TEST(GltfView, WarnsOfInvalidIndices) {
+  expect_warning(R"("scene": @, "scenes": [{"nodes": [0]}], "nodes": [{"camera": 0}])", "scenes", 1, 0);
+  expect_warning(R"("scenes": [{"nodes": [0, @]}], "nodes": [{"camera": 0}, {}])", "nodes", 2, 1);
+  expect_warning(R"("scenes": [{"nodes": [0]}], "nodes": [{"camera": 0, "children": [1, @]}, {}, {}])",
+                 "nodes", 3, 1);
+  expect_warning(R"("scenes": [{"nodes": [0, 1]}], "nodes": [{"camera": 0}, {"camera": @}])", "cameras", 1,
+                 1);
+  expect_warning(
+      R"("scenes": [{"nodes": [0, 1]}], "nodes": [{"camera": 0},
+    {"extensions": {"KHR_lights_punctual": {"light": @}}}])",
       "lights", 2, 1);
 }
 
-TEST(GltfView, AngleOfAPerspectiveIsBelowHalfATurn) {
+TEST(GltfView, RejectsPerspectiveAnglesOutsideZeroToPi) {
   const auto view = [](const std::string& angle) {
     return view_of(R"("scenes": [{"nodes": [0, 0]}], "nodes": [{"camera": 0}])",
                    R"({"type": "perspective", "perspective": {"yfov": )" + angle + R"(, "znear": 1}})");

@@ -1,4 +1,5 @@
-// Models of all formats: Debian's assimp-testmodels, whole ones and broken ones, each within its limits.
+// Models of all formats, from Debian's assimp-testmodels: intact and broken files, within the limits of time
+// and memory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +43,7 @@ std::string content(const fs::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// A picture or one Error of one line, in time; anything else ends the test.
+// Expects a picture or an Error of one line, in time. Returns whether the model was read.
 bool renders(const std::string& path) {
   static Renderer renderer;
   const auto start = std::chrono::steady_clock::now();
@@ -86,9 +87,9 @@ TEST_F(ModelImport, ReadsPlyAndStl) {
     EXPECT_FLOAT_EQ(std::abs(ply.mesh.normals[i]), 1);
 }
 
-// What is in all files of one animal is the same shape, whatever reader brought it: as many triangles, and
-// the same picture, but for the normals that some of them give.
-TEST_F(ModelImport, OneModelIsTheSamePictureInSixFormats) {
+// One model in six formats has the same number of triangles and the same picture, except for normals, which
+// only some of the files give.
+TEST_F(ModelImport, RendersOneModelAlikeFromSixFormats) {
   std::vector<std::uint8_t> first;
   for (const char* name : {"OBJ/WusonOBJ.obj", "PLY/Wuson.ply", "STL/Wuson.stl", "OFF/Wuson.off",
                            "MS3D/Wuson.ms3d", "XGL/Wuson.zgl"}) {
@@ -103,7 +104,9 @@ TEST_F(ModelImport, OneModelIsTheSamePictureInSixFormats) {
     std::vector<std::uint8_t> pixels(4 * 320 * 240);
     Renderer().finish(frame, {.pixels = pixels.data(), .width = 320, .height = 240, .stride_bytes = 4 * 320});
     if (first.empty()) first = pixels;
-    std::size_t covered = 0, other_outline = 0, other_shade = 0;
+    std::size_t covered = 0;
+    std::size_t other_outline = 0;
+    std::size_t other_shade = 0;
     const auto is_background = [](const std::uint8_t* p) { return p[0] == 46 && p[1] == 51 && p[2] == 64; };
     for (std::size_t i = 0; i < pixels.size(); i += 4) {
       covered += is_background(&pixels[i]) ? 0 : 1;
@@ -112,13 +115,12 @@ TEST_F(ModelImport, OneModelIsTheSamePictureInSixFormats) {
     }
     EXPECT_GT(covered, 8000u) << name;
     EXPECT_LT(other_outline, covered / 100) << name;
-    EXPECT_LT(other_shade, covered / 10) << name << ": flat ones differ at edges";
+    EXPECT_LT(other_shade, covered / 10) << name << ": flat normals differ at edges";
   }
 }
 
-// PLY with a colour at each of many vertices.
-TEST_F(ModelImport, ColorsOfManyVerticesTakeNoTime) {
-#ifdef __SANITIZE_THREAD__  // a reading process has ten seconds, and is a dozen times as slow
+TEST_F(ModelImport, ReadsColorsOfManyVerticesInTime) {
+#ifdef __SANITIZE_THREAD__  // a dozen times slower, with the same limit of ten seconds
   constexpr int kSide = 200;
 #else
   constexpr int kSide = 400;
@@ -142,8 +144,8 @@ TEST_F(ModelImport, ColorsOfManyVerticesTakeNoTime) {
   EXPECT_TRUE(model.parts.at(0).uses_colors);
 }
 
-// lights.dae says: a point with a quadratic term, a sun, a spot of 45 degrees, an ambient light.
-TEST_F(ModelImport, LightsOfCollada) {
+// lights.dae holds a point light with a quadratic term, a sun, a spot of 45 degrees and an ambient light.
+TEST_F(ModelImport, ReadsColladaLights) {
   const Model model = import_model((kModels / "Collada/lights.dae").string());
   ASSERT_GE(model.lights.size(), 3u);
   const auto sun = std::find_if(model.lights.begin(), model.lights.end(),
@@ -157,10 +159,11 @@ TEST_F(ModelImport, LightsOfCollada) {
   EXPECT_FLOAT_EQ(model.ambient_light->g, 1);
 }
 
-// The corpus of assimp, whole and broken files; then the smallest file of each format: empty, cut off, and
-// with wrong bytes.
-TEST_F(ModelImport, EveryModelOfEveryFormatIsAPictureOrRefusedInOneLine) {
-  int read = 0, refused = 0;
+// Reads assimp's corpus; then the smallest file of each format, empty, truncated and with random bytes
+// changed.
+TEST_F(ModelImport, RendersOrRejectsEveryModelInOneLine) {
+  int read = 0;
+  int refused = 0;
   std::map<std::string, fs::path> smallest;
   const std::vector<std::string> endings = model_extensions();
   for (const auto& entry : fs::recursive_directory_iterator(kModels)) {
@@ -176,7 +179,8 @@ TEST_F(ModelImport, EveryModelOfEveryFormatIsAPictureOrRefusedInOneLine) {
   std::erase_if(smallest, [](const auto& format) { return format.second.empty(); });
   EXPECT_GE(read, 300);
   EXPECT_GE(smallest.size(), 40u);
-  int broken_read = 0, broken_refused = 0;
+  int broken_read = 0;
+  int broken_refused = 0;
   std::uint32_t random = 1;
   for (const auto& [ending, path] : smallest) {
     const std::string whole = content(path);
@@ -195,8 +199,8 @@ TEST_F(ModelImport, EveryModelOfEveryFormatIsAPictureOrRefusedInOneLine) {
   }
   EXPECT_GT(broken_refused, 100);
   EXPECT_GT(broken_read, 20);
-  std::printf("%d models drawn, %d refused, %zu formats; of broken files %d drawn, %d refused\n", read,
-              refused, smallest.size(), broken_read, broken_refused);
+  std::printf("%d models drawn, %d refused, %zu formats; broken files: %d drawn, %d refused\n", read, refused,
+              smallest.size(), broken_read, broken_refused);
 }
 
 }  // namespace

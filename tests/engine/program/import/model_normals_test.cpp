@@ -1,4 +1,4 @@
-// Normals that are made, against what geometry says of a cube and of a fan.
+// Generated normals of a cube and a fan, against geometry.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace tessera {
 using namespace program;
 namespace {
 
-// Eight shared vertices, wound counter-clockwise seen from outside.
+// A cube of eight shared vertices, counter-clockwise as viewed from outside.
 MeshData cube() {
   MeshData mesh;
   for (int i = 0; i < 8; ++i)
@@ -26,7 +26,7 @@ std::array<float, 3> normal(const MeshData& mesh, std::size_t index) {
   return {n[0], n[1], n[2]};
 }
 
-TEST(CreasedNormals, ACubeIsFlatAndItsVerticesAreSplitInThree) {
+TEST(CreasedNormals, SplitsCubeVerticesIntoFlatFaces) {
   MeshData mesh = cube();
   mesh.colors.assign(4 * 8, 0.5f);
   mesh.texcoords.assign(2 * 8, 0.5f);
@@ -40,14 +40,14 @@ TEST(CreasedNormals, ACubeIsFlatAndItsVerticesAreSplitInThree) {
     EXPECT_EQ(std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]), 1) << "along an axis";
     for (std::size_t corner = 0; corner < 3; ++corner) {
       EXPECT_EQ(normal(mesh, i + corner), n);
-      // Away from the middle.
+      // Outward.
       const float* const p = &mesh.positions[3 * std::size_t{mesh.indices[i + corner]}];
       EXPECT_GT(n[0] * (p[0] - 0.5f) + n[1] * (p[1] - 0.5f) + n[2] * (p[2] - 0.5f), 0);
     }
   }
 }
 
-TEST(CreasedNormals, AWideAngleMakesACubeSmooth) {
+TEST(CreasedNormals, WideAngleSmoothsCube) {
   MeshData mesh = cube();
   add_creased_normals(mesh, 100);
   EXPECT_EQ(mesh.vertex_count(), 8u);
@@ -56,9 +56,9 @@ TEST(CreasedNormals, AWideAngleMakesACubeSmooth) {
         << "between three faces";
 }
 
-TEST(CreasedNormals, MeansAreWeightedByAreaOverPositionsNotVertices) {
-  MeshData mesh;  // two triangles that meet at a right angle along an edge, without shared vertices; the
-                  // second is twice as large
+TEST(CreasedNormals, WeightsByAreaAcrossCoincidentVertices) {
+  // Two triangles without shared vertices that meet at a right angle; the second is twice as large.
+  MeshData mesh;
   mesh.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, /**/ -0.0f, 0, 0, 0, 1, 0, 0, 0, 2};
   mesh.indices = {0, 1, 2, 3, 4, 5};
   add_creased_normals(mesh, 90);
@@ -68,7 +68,7 @@ TEST(CreasedNormals, MeansAreWeightedByAreaOverPositionsNotVertices) {
   EXPECT_EQ(mesh.normals[3 * 5 + 0], 1);
 }
 
-TEST(CreasedNormals, GivenOnesStayAndOddPositionsHarmNobody) {
+TEST(CreasedNormals, KeepsGivenNormalsAndToleratesNonFinitePositions) {
   MeshData mesh = cube();
   mesh.normals.assign(3 * 8, 0);
   mesh.normals[3 * 5 + 1] = -1;
@@ -78,11 +78,11 @@ TEST(CreasedNormals, GivenOnesStayAndOddPositionsHarmNobody) {
   add_creased_normals(mesh);
   EXPECT_EQ(mesh.normals[3 * 5 + 1], -1);
   EXPECT_EQ(normal(mesh, 0), (std::array<float, 3>{0, 0, -1}))
-      << "a triangle without a place does not take part";
+      << "a triangle with non-finite positions is ignored";
 }
 
-// More triangles at one place than are compared with each other: one smooth surface, and soon done.
-TEST(CreasedNormals, AFanOfManyTrianglesTakesNoTime) {
+// Above the limit for comparing triangles at one position, all of them form a smooth surface.
+TEST(CreasedNormals, HandlesLargeFansInTime) {
   constexpr std::uint32_t kTriangles = 300000;
   MeshData mesh;
   mesh.positions = {0, 0, 1};
@@ -96,7 +96,7 @@ TEST(CreasedNormals, AFanOfManyTrianglesTakesNoTime) {
   EXPECT_NEAR(mesh.normals[2], 1, 1e-4);
 }
 
-TEST(WindByNormals, TurnsTheTrianglesThatFaceAwayFromTheirNormals) {
+TEST(WindByNormals, ReversesTrianglesAgainstTheirNormals) {
   MeshData mesh = cube();
   add_creased_normals(mesh);
   const std::vector<std::uint32_t> right = mesh.indices;

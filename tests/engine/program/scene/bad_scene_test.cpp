@@ -1,4 +1,4 @@
-// Every mistake in a scene file gives one Error that names the file, the JSON pointer and what was expected.
+// Errors of scene files name the file, the JSON pointer and what was expected.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -10,9 +10,9 @@ using namespace program;
 namespace {
 
 struct BadScene {
-  std::string text;      // a whole file if it starts with { or [ or blank, else what follows {"tessera": 1,
+  std::string text;  // the whole file if it starts with {, [ or a blank; else the text after {"tessera": 1,
   std::string pointer;   // or line and column
-  std::string fragment;  // of the rest of the message
+  std::string fragment;  // part of the rest of the message
 };
 
 std::string whole(const std::string& text) {
@@ -39,7 +39,7 @@ std::string with_positions(const std::string& keys) {
 std::string index_buffer(const std::string& keys) {
   return R"("framebuffer": {"color": {"mode": "index", "bits": 8}, )" + keys + "}";
 }
-// A draw or another command into a frame buffer with those keys.
+// A scene with one draw, or another command, and a frame buffer with these keys.
 std::string draw_into(const std::string& buffer, const std::string& keys) {
   return R"("framebuffer": {)" + buffer + "}, " + draw(keys);
 }
@@ -145,7 +145,7 @@ const BadScene kBadScenes[] = {
     {R"("camera": {"eye": [0, 0, "4"]})", "/camera/eye/2", "found \"4\", expected a number"},
     {R"("camera": {"eye": [0, 0, 0], "target": [0, 0, 0]})", "/camera", "eye and target must differ"},
     {R"("camera": {"up": [0, 0, 1]})", "/camera", "up must not lie along the view"},
-    {R"("camera": {"reversed": true})", "/camera/reversed", "stands in \"projection\""},
+    {R"("camera": {"reversed": true})", "/camera/reversed", "belongs in \"projection\""},
     {R"("camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})", "/camera",
      "key \"projection\" is missing"},
     {R"("camera": {"view": [1,2,3], "projection": [1,2,3]})", "/camera/view",
@@ -163,13 +163,15 @@ const BadScene kBadScenes[] = {
     {projection(R"("type": "orthographic", "left": -1, "right": 1, "bottom": -1, "top": 1, "near": 1)"),
      "/camera/projection", "key \"far\" is missing"},
     {projection(
-         R"("type": "orthographic", "left": -1, "right": 1, "bottom": -1, "top": 1, "near": 1, "far": "infinity")"),
+         R"("type": "orthographic", "left": -1, "right": 1, "bottom": -1, "top": 1, "near": 1,
+    "far": "infinity")"),
      "/camera/projection/far", "finite"},
     {projection(R"("type": "frustum", "left": 1, "right": 1, "bottom": -1, "top": 1, "near": 1, "far": 2)"),
      "/camera/projection", "left is 1.000000 and right is 1.000000"},
     {projection(R"("far": 1e308)"), "/camera/projection", "the volume is too large or too thin"},
     {projection(
-         R"("type": "orthographic", "left": -1e-320, "right": 1e-320, "bottom": -1, "top": 1, "near": 1, "far": 2)"),
+         R"("type": "orthographic", "left": -1e-320, "right": 1e-320, "bottom": -1, "top": 1, "near": 1,
+    "far": 2)"),
      "/camera/projection", "the volume is too large or too thin"},
     {projection(R"("fovy": {"keys": [[0, 30], [0, 60]]})"), "/camera/projection/fovy/keys/1", "t must rise"},
     {projection(R"("fovy": {"keys": [[0, 30], [1]]})"), "/camera/projection/fovy/keys/1",
@@ -369,7 +371,8 @@ const BadScene kBadScenes[] = {
     {shadow(R"("plane": [0, 0, 1, 0], "colour": [0, 0, 0, 1])"), "/frame/0/shadow_on/colour",
      "did you mean \"color\"?"},
     {kPot +
-         R"("frame": [{"lights": [{}, {}]}, {"draw": "pot", "shadow_on": {"plane": [0, 0, 1, 0], "light": 2}}])",
+         R"("frame": [{"lights": [{}, {}]}, {"draw": "pot", "shadow_on": {"plane": [0, 0, 1, 0],
+    "light": 2}}])",
      "/frame/1/shadow_on/light", "found 2, expected an integer from 0 to 1"},
 
     // Bitmaps and images
@@ -560,7 +563,7 @@ const BadScene kBadScenes[] = {
     {draw(R"("logic_op": "and_")"), "/frame/0/logic_op", "did you mean \"and\"?"},
 };
 
-// What may stand beside each other, and looks as if it might not.
+// Unusual but valid combinations.
 const std::string kGoodScenes[] = {
     draw_into(R"("depth": "none")", R"("polygon_offset": [0, 0], "depth": false)"),
     draw(R"("blend": {"src_alpha": null, "dst_alpha": null}, "logic_op": "copy")"),
@@ -575,10 +578,11 @@ const std::string kGoodScenes[] = {
     good_bitmap(R"("depth": 0.5, "blend": {}, "alpha_test": {})", R"("depth": "none")"),
     good_bitmap(R"("depth": {"test": "always", "write": false}, "color": [2, -1, 0, 0.5], "plane_mask": 0)"),
     R"("lights": [], )" + kPot +
-        R"("frame": [{"lights": [{}]}, {"draw": "pot", "shadow_on": {"plane": [0, 0, -2, 1], "color": [0, 0, 0, 0.5]}, "lighting": true}])",
+        R"("frame": [{"lights": [{}]}, {"draw": "pot", "shadow_on": {"plane": [0, 0, -2, 1],
+    "color": [0, 0, 0, 0.5]}, "lighting": true}])",
 };
 
-TEST(BadScene, EachMistakeNamesFilePointerAndExpectation) {
+TEST(BadScene, ErrorsNameFilePointerAndExpectation) {
   for (const BadScene& bad : kBadScenes) {
     const std::string message = message_of(whole(bad.text));
     EXPECT_TRUE(message.starts_with("bad.json: " + bad.pointer + ": ")) << bad.text << "\n" << message;
@@ -588,11 +592,11 @@ TEST(BadScene, EachMistakeNamesFilePointerAndExpectation) {
   }
 }
 
-TEST(BadScene, WhatFitsTogetherIsNoMistake) {
+TEST(BadScene, AcceptsValidCombinations) {
   for (const std::string& good : kGoodScenes) EXPECT_EQ(message_of(whole(good)), "(no error)") << good;
 }
 
-TEST(BadScene, MissingFileAndFolderAreNamed) {
+TEST(BadScene, ErrorsNameMissingFilesAndFolders) {
   for (const char* path : {"/no such folder/scene.json", "/"}) {
     try {
       load_scene(path);

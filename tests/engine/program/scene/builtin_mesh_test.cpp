@@ -1,5 +1,4 @@
-// The built-in meshes are what the scene format says: closed where they should be, wound outwards, with
-// matching normals.
+// The built-in meshes: closed solids, wound outwards, with matching normals.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +20,7 @@ Position position(const MeshData& mesh, std::size_t vertex) {
   return {mesh.positions[3 * vertex], mesh.positions[3 * vertex + 1], mesh.positions[3 * vertex + 2]};
 }
 
-Vec3 face_normal(const MeshData& mesh, std::size_t triangle) {  // twice the area long
+Vec3 face_normal(const MeshData& mesh, std::size_t triangle) {  // its length is twice the area
   const Position a = position(mesh, mesh.indices[3 * triangle]),
                  b = position(mesh, mesh.indices[3 * triangle + 1]),
                  c = position(mesh, mesh.indices[3 * triangle + 2]);
@@ -41,12 +40,13 @@ double volume(const MeshData& mesh) {
 }
 
 struct Topology {
-  std::size_t vertices, open_edges;
+  std::size_t vertices;
+  std::size_t open_edges;
   long euler;  // V - E + F
 };
 
-// Of the mesh with vertices at one place made one. An edge is open if its other side has no triangle running
-// the other way.
+// Returns the topology after merging vertices at the same position. An edge is open if no triangle uses it in
+// the opposite direction.
 Topology topology(const MeshData& mesh) {
   std::map<Position, std::size_t> welded;
   const auto id = [&](std::uint32_t vertex) {
@@ -55,7 +55,8 @@ Topology topology(const MeshData& mesh) {
   std::map<std::pair<std::size_t, std::size_t>, int> edges;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
     for (std::size_t k = 0; k < 3; ++k) ++edges[{id(mesh.indices[i + k]), id(mesh.indices[i + (k + 1) % 3])}];
-  std::size_t open = 0, pairs = 0;
+  std::size_t open = 0;
+  std::size_t pairs = 0;
   for (const auto& [edge, count] : edges) {
     const auto back = edges.find({edge.second, edge.first});
     if (back == edges.end() || back->second != count) ++open;
@@ -80,7 +81,7 @@ double worst_angle(const MeshData& mesh) {
   return std::acos(worst) * 180 / 3.14159265358979;
 }
 
-TEST(BuiltinMesh, EveryMeshHasUnitNormalsThatAgreeWithItsTriangles) {
+TEST(BuiltinMesh, UnitNormalsAgreeWithTriangles) {
   for (const std::string_view name : kBuiltinMeshNames)
     for (const int detail : {min_mesh_detail(name), 3, 8, 16}) {
       const MeshData mesh = builtin_mesh(name, detail);
@@ -96,7 +97,7 @@ TEST(BuiltinMesh, EveryMeshHasUnitNormalsThatAgreeWithItsTriangles) {
     }
 }
 
-TEST(BuiltinMesh, SolidsAreClosedAndHaveTheirVolumes) {
+TEST(BuiltinMesh, SolidsAreClosedWithExpectedVolume) {
   const struct {
     const char* name;
     double volume;
@@ -119,7 +120,7 @@ TEST(BuiltinMesh, SolidsAreClosedAndHaveTheirVolumes) {
     }
 }
 
-TEST(BuiltinMesh, QuadAndGridAreOneSquare) {
+TEST(BuiltinMesh, QuadAndGridAreSquares) {
   EXPECT_EQ(builtin_mesh("quad").triangle_count(), 2u);
   EXPECT_EQ(builtin_mesh("grid", 5).triangle_count(), 50u);
   EXPECT_EQ(builtin_mesh("grid", 5).vertex_count(), 36u);
@@ -129,7 +130,7 @@ TEST(BuiltinMesh, QuadAndGridAreOneSquare) {
             (std::vector<std::uint32_t>{0, 1, 3, 0, 3, 2}));  // the diagonal starts at the lowest s and t
 }
 
-TEST(BuiltinMesh, CountsFollowTheDetail) {
+TEST(BuiltinMesh, TriangleCountsFollowDetail) {
   EXPECT_EQ(builtin_mesh("cube", 4).triangle_count(), 6u * 4 * 4 * 2);
   EXPECT_EQ(builtin_mesh("sphere", 4).triangle_count(),
             2u * 8 * 4 - 2 * 8);  // one triangle less at each pole
@@ -138,7 +139,7 @@ TEST(BuiltinMesh, CountsFollowTheDetail) {
   EXPECT_EQ(builtin_mesh("cone", 4).triangle_count(), 8u + 8);
 }
 
-TEST(BuiltinMesh, TheTeapotIsCentredAndItsLongestSideSpansMinusOneToOne) {
+TEST(BuiltinMesh, TeapotIsCentredAndSpansMinusOneToOne) {
   for (const int detail : {1, 5, 12}) {
     const MeshData pot = builtin_mesh("teapot", detail);
     std::array<float, 3> low{9, 9, 9}, high{-9, -9, -9};
@@ -152,18 +153,17 @@ TEST(BuiltinMesh, TheTeapotIsCentredAndItsLongestSideSpansMinusOneToOne) {
   }
 }
 
-// The spout and the handle are open where they pierce the body, the rim is open under the lid; patches meet
-// without a gap.
-TEST(BuiltinMesh, TheTeapotIsWoundOutwardsAndItsPatchesMeet) {
+// The teapot is open only where spout and handle pierce the body, and at the rim under the lid.
+TEST(BuiltinMesh, TeapotIsWoundOutwardsWithoutGapsBetweenPatches) {
   const MeshData pot = builtin_mesh("teapot", 10);
   EXPECT_GT(volume(pot), 0);
   EXPECT_EQ(pot.vertex_count(), 32u * 11 * 11);
   EXPECT_EQ(pot.triangle_count(), 32u * 2 * 100 - 8 * 10);
-  // Open rings of 4 patches' edges (2 at the handle's and the spout's four ends), 10 segments each.
+  // Open rings of 4 patch edges (2 at each of the four ends of handle and spout), 10 segments each.
   EXPECT_LE(topology(pot).open_edges, (4u + 4 + 4 * 2) * 10);
 }
 
-TEST(BuiltinMesh, AtThePolesOfLidAndBottomTheNormalIsTheAxis) {
+TEST(BuiltinMesh, TeapotPoleNormalsPointAlongTheAxis) {
   const MeshData pot = builtin_mesh("teapot", 6);
   int poles = 0;
   for (std::size_t i = 0; i < pot.vertex_count(); ++i) {
@@ -175,7 +175,7 @@ TEST(BuiltinMesh, AtThePolesOfLidAndBottomTheNormalIsTheAxis) {
   EXPECT_GE(poles, 8 * 7);
 }
 
-TEST(BuiltinMesh, UnknownNamesAndDetailsAreRefused) {
+TEST(BuiltinMesh, RejectsUnknownNamesAndDetails) {
   EXPECT_THROW(builtin_mesh("teapots"), Error);
   EXPECT_THROW(builtin_mesh("cube", 0), Error);
   EXPECT_THROW(builtin_mesh("cube", 1025), Error);

@@ -1,4 +1,4 @@
-// A model as a scene of its own.
+// Scenes made of a single model.
 #include <gtest/gtest.h>
 
 #include "engine/program/scene/model_scene.h"
@@ -7,7 +7,7 @@ namespace tessera {
 using namespace program;
 namespace {
 
-TEST(ModelScene, ALensBeyondNumbersIsNotTaken) {
+TEST(ModelScene, IgnoresCamerasWithOverflowingProjection) {
   for (const ModelCamera& camera : {ModelCamera{.view = {}, .is_orthographic = true, .half_height = 1.7e308},
                                     ModelCamera{.view = {}, .half_height = 5e-324, .near = 0.25}}) {
     Model model;
@@ -17,7 +17,7 @@ TEST(ModelScene, ALensBeyondNumbersIsNotTaken) {
     model.cameras.push_back(camera);
     const Scene scene = model_scene(model, "m", 64, 48);
     ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_EQ(scene.warnings[0], "m: its cameras see nothing of the model, which is framed instead");
+    EXPECT_EQ(scene.warnings[0], "m: no camera of the file shows the model; a default camera frames it");
   }
 }
 

@@ -1,4 +1,4 @@
-// Lists of hashes are read as they are written, and nothing else is.
+// Lists of picture hashes.
 #include <gtest/gtest.h>
 
 #include "engine/program/scene/picture_hashes.h"
@@ -10,7 +10,7 @@ namespace {
 
 using test::error_of;
 
-TEST(PictureHashLists, AreReadAsTheyAreWritten) {
+TEST(PictureHashLists, RoundTrip) {
   const PictureHash a{0x0123456789abcdef, 0, 2, 3}, b{1, 0xffffffffffffffff, 0, 0};
   EXPECT_EQ(to_text(a), "0123456789abcdef 0000000000000000 0000000000000002 0000000000000003");
   const PictureHashes list = parse_picture_hashes("a " + to_text(a) + "\nb_2 " + to_text(b), "list");
@@ -20,11 +20,13 @@ TEST(PictureHashLists, AreReadAsTheyAreWritten) {
   EXPECT_TRUE(parse_picture_hashes("", "list").empty());
 }
 
-TEST(PictureHashLists, LinesOfAnotherFormAreErrors) {
-  const std::string two = "0123456789abcdef 0123456789abcdef", four = two + " " + two,
-                    good = "a " + four + "\n";
+TEST(PictureHashLists, RejectMalformedLines) {
+  const std::string two = "0123456789abcdef 0123456789abcdef";
+  const std::string four = two + " " + two;
+  const std::string good = "a " + four + "\n";
   const struct {
-    std::string text, message;
+    std::string text;
+    std::string message;
   } kBad[] = {
       {"\n", "list:1: expected a scene's name and four hashes"},
       {good + "b " + two + "\n", "list:2: expected a scene's name"},

@@ -1,4 +1,4 @@
-// What a scene file leaves out has the format's default; what it says arrives.
+// Defaults of scene files, the keys they read, and overrides.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ const Clear& clear_of(const Scene& scene, std::size_t i) { return std::get<Clear
 bool same(const Matrix& a, const Matrix& b) { return a.m == b.m; }
 bool same(Color a, Color b) { return a.r == b.r && a.g == b.g && a.b == b.b && a.a == b.a; }
 
-TEST(SceneDefaults, AnEmptySceneIsOneClear) {
+TEST(SceneDefaults, EmptySceneClearsBuffers) {
   const Scene scene = parse("");
   EXPECT_EQ(scene.framebuffer.width, 640);
   EXPECT_EQ(scene.framebuffer.height, 480);
@@ -38,9 +38,10 @@ TEST(SceneDefaults, AnEmptySceneIsOneClear) {
   EXPECT_EQ(clear_of(scene, 0).stencil, 0u);
 }
 
-TEST(SceneDefaults, TheDefaultFrameDrawsEveryMeshInTheOrderOfTheFile) {
+TEST(SceneDefaults, DefaultFrameDrawsMeshesInFileOrder) {
   const Scene scene = parse(
-      R"("meshes": {"z": {"builtin": "cube"}, "a": {"builtin": "quad"}, "m": {"builtin": "grid", "detail": 2}})");
+      R"("meshes": {"z": {"builtin": "cube"}, "a": {"builtin": "quad"}, "m": {"builtin": "grid",
+    "detail": 2}})");
   ASSERT_EQ(scene.frame.size(), 4u);
   EXPECT_EQ(scene.meshes[draw_of(scene, 1).mesh].name, "z");
   EXPECT_EQ(scene.meshes[draw_of(scene, 2).mesh].name, "a");
@@ -51,28 +52,30 @@ TEST(SceneDefaults, TheDefaultFrameDrawsEveryMeshInTheOrderOfTheFile) {
   EXPECT_EQ(state.depth.test, Compare::less);
 }
 
-TEST(SceneDefaults, AReversedProjectionTurnsTheDefaultFrameRound) {
+TEST(SceneDefaults, ReversedProjectionReversesDefaultFrame) {
   const Scene scene = parse(
-      R"("meshes": {"m": {"builtin": "cube"}}, "camera": {"projection": {"reversed": true, "far": "infinity"}})");
+      R"("meshes": {"m": {"builtin": "cube"}}, "camera": {"projection": {"reversed": true,
+    "far": "infinity"}})");
   EXPECT_TRUE(scene.camera.reversed);
   EXPECT_EQ(std::get<Lens>(scene.camera.projection).far, std::numeric_limits<double>::infinity());
   EXPECT_EQ(clear_of(scene, 0).depth, 0.0);
   EXPECT_EQ(draw_of(scene, 1).state.depth.test, Compare::greater);
 }
 
-TEST(SceneDefaults, WithoutDepthAndStencilNothingClearsOrTestsThem) {
+TEST(SceneDefaults, DefaultFrameSkipsMissingDepthAndStencil) {
   const Scene scene =
       parse(R"("framebuffer": {"depth": "none", "stencil": 0}, "meshes": {"m": {"builtin": "cube"}})");
   EXPECT_FALSE(clear_of(scene, 0).depth);
   EXPECT_FALSE(clear_of(scene, 0).stencil);
   EXPECT_FALSE(draw_of(scene, 1).state.depth.enabled);
   const Scene written = parse(
-      R"("framebuffer": {"depth": "none"}, "meshes": {"m": {"builtin": "cube"}}, "frame": [{"draw": "m"}, {"draw": "m", "depth": false}])");
+      R"("framebuffer": {"depth": "none"}, "meshes": {"m": {"builtin": "cube"}}, "frame": [{"draw": "m"},
+    {"draw": "m", "depth": false}])");
   EXPECT_FALSE(draw_of(written, 0).state.depth.enabled);
   EXPECT_FALSE(draw_of(written, 1).state.depth.enabled);
 }
 
-TEST(SceneDefaults, AnEmptyListOfLightsIsNone) {
+TEST(SceneDefaults, EmptyLightListMeansNoLights) {
   EXPECT_TRUE(parse(R"("lights": [])").lights.empty());
   const Scene scene =
       parse(R"("lights": [{}, {"position": [1, 2, 3, 1], "spot_cutoff": 30, "attenuation": [0, 1, 2]}])");
@@ -82,21 +85,24 @@ TEST(SceneDefaults, AnEmptyListOfLightsIsNone) {
   EXPECT_EQ(scene.lights[1].attenuation_quadratic, 2);
 }
 
-TEST(SceneDefaults, KeysOfLaterVersionsAreAcceptedAtTheirDefaults) {
+TEST(SceneDefaults, AcceptsUnsupportedKeysAtTheirDefaults) {
   const Scene scene = parse(R"(
-    "framebuffer": {"dither": "none", "alpha": 0, "accumulation": 0, "samples": 1}, "textures": {},   // a comment
+    "framebuffer": {"dither": "none", "alpha": 0, "accumulation": 0, "samples": 1}, "textures": {},
+      // a comment
     "meshes": {"m": {"builtin": "cube", "detail": 1}},
-    "frame": [{"draw": "m", "polygon_mode": "fill", "point_size": 1, "line_width": 1.0, "polygon_offset": [0, 0], "texture_env": "modulate",
+    "frame": [{"draw": "m", "polygon_mode": "fill", "point_size": 1, "line_width": 1.0,
+    "polygon_offset": [0, 0], "texture_env": "modulate",
                "texture_env_color": [0, 0, 0, 0], "logic_op": "copy", "stages": []},
               /* another */ {"draw": "m", "polygon_mode": ["fill", "fill"]}])");
   EXPECT_EQ(scene.frame.size(), 2u);
 }
 
-TEST(SceneDefaults, EveryKeyOfAnAccumulationArrives) {
+TEST(SceneDefaults, ReadsAllKeysOfAccum) {
   const Scene scene = parse(R"(
     "framebuffer": {"accumulation": 32},
     "frame": [{"clear": {"accumulation": [0.5, -0.25, 0, -1]}}, {"accum": {"op": "mult", "value": -0.1}},
-              {"accum": {"op": "return", "value": 2, "scissor": [1, 2, 3, 4], "color_mask": [true, false, true, false]}}])");
+              {"accum": {"op": "return", "value": 2, "scissor": [1, 2, 3, 4], "color_mask": [true, false,
+    true, false]}}])");
   EXPECT_EQ(scene.framebuffer.accumulation_bits, 32);
   EXPECT_TRUE(same(*std::get<Clear>(scene.frame[0].what).accumulation, {0.5f, -0.25f, 0, -1}));
   const auto& mult = std::get<Accum>(scene.frame[1].what);
@@ -104,20 +110,25 @@ TEST(SceneDefaults, EveryKeyOfAnAccumulationArrives) {
   EXPECT_EQ(mult.value, -0.1);
   EXPECT_FALSE(mult.scissor);
   EXPECT_EQ(mult.color_mask, (std::array<bool, 4>{true, true, true, true}));
-  const auto& given_back = std::get<Accum>(scene.frame[2].what);
-  EXPECT_EQ(given_back.op, AccumOp::return_color);
-  ASSERT_TRUE(given_back.scissor);
-  EXPECT_EQ(given_back.scissor->height, 4);
-  EXPECT_EQ(given_back.color_mask, (std::array<bool, 4>{true, false, true, false}));
+  const auto& returned = std::get<Accum>(scene.frame[2].what);
+  EXPECT_EQ(returned.op, AccumOp::return_color);
+  ASSERT_TRUE(returned.scissor);
+  EXPECT_EQ(returned.scissor->height, 4);
+  EXPECT_EQ(returned.color_mask, (std::array<bool, 4>{true, false, true, false}));
 }
 
-TEST(SceneDefaults, EveryKeyOfADrawArrives) {
+TEST(SceneDefaults, ReadsAllKeysOfDraw) {
   const Scene scene = parse(R"(
-    "meshes": {"m": {"builtin": "cube", "detail": 1}}, "materials": {"red": {"diffuse": [1, 0, 0, 1], "shininess": 5}, "green": {"preset": "emerald", "shininess": 3}},
-    "frame": [{"draw": "m", "material": "red", "back_material": "green", "transform": [{"translate": [1, 2, 3]}, {"scale": [2, 2, 2]}],
-               "shading": "flat", "lighting": false, "color_material": "ambient_and_diffuse", "provoking_vertex": "first", "normalize": false,
-               "cull": "back", "front_face": "cw", "depth": {"test": "gequal", "write": false}, "depth_range": [1, 0.5],
-               "color_mask": [true, false, true, false], "plane_mask": 4294967295, "viewport": [-1, 2, 3, 4], "scissor": [5, 6, 7, 8]}])");
+    "meshes": {"m": {"builtin": "cube", "detail": 1}}, "materials": {"red": {"diffuse": [1, 0, 0, 1],
+    "shininess": 5}, "green": {"preset": "emerald", "shininess": 3}},
+    "frame": [{"draw": "m", "material": "red", "back_material": "green",
+    "transform": [{"translate": [1, 2, 3]}, {"scale": [2, 2, 2]}],
+               "shading": "flat", "lighting": false, "color_material": "ambient_and_diffuse",
+    "provoking_vertex": "first", "normalize": false,
+               "cull": "back", "front_face": "cw", "depth": {"test": "gequal", "write": false},
+    "depth_range": [1, 0.5],
+               "color_mask": [true, false, true, false], "plane_mask": 4294967295, "viewport": [-1, 2, 3, 4],
+    "scissor": [5, 6, 7, 8]}])");
   const DrawState& s = draw_of(scene, 0).state;
   EXPECT_EQ(s.material.shininess, 5);
   EXPECT_TRUE(same(s.material.diffuse, {1, 0, 0, 1}));
@@ -143,9 +154,10 @@ TEST(SceneDefaults, EveryKeyOfADrawArrives) {
   EXPECT_EQ(s.scissor->height, 8);
 }
 
-TEST(SceneDefaults, InlineMeshesArrive) {
+TEST(SceneDefaults, ReadsInlineMeshes) {
   const Scene scene = parse(R"("meshes": {
-    "a": {"positions": [[0,0,0],[1,0,0],[0,1,0]], "normals": [[0,0,1],[0,0,1],[0,0,1]], "colors": [[1,0,0,1],[0,1,0,1],[0,0,1,1]], "indices": [2,1,0]},
+    "a": {"positions": [[0,0,0],[1,0,0],[0,1,0]], "normals": [[0,0,1],[0,0,1],[0,0,1]],
+    "colors": [[1,0,0,1],[0,1,0,1],[0,0,1,1]], "indices": [2,1,0]},
     "b": {"primitive": "triangles", "positions": [[0,0,0,1],[1,0,0,2],[0,1,0,3]]}})");
   EXPECT_EQ(scene.meshes[0].position_components, 3);
   EXPECT_EQ(scene.meshes[0].indices, (std::vector<std::uint32_t>{2, 1, 0}));
@@ -155,16 +167,17 @@ TEST(SceneDefaults, InlineMeshesArrive) {
   EXPECT_EQ(scene.meshes[1].triangle_count(), 1u);
 }
 
-TEST(SceneDefaults, NumbersOfLongListsMayChangeToo) {
+TEST(SceneDefaults, AnimatesNumbersInLongLists) {
   const Scene scene = parse(R"("meshes": {"m": {"positions": [[0,0,0],[1,0,0],[0,1,0]],
     "indices": [0,1,2, 0,1,2, 0,1,2, 0,1,2, 0,1,2, 0,1,{"keys": [[0, 2], [1, 0]]}]}})");
   ASSERT_EQ(scene.meshes[0].indices.size(), 18u);
   EXPECT_EQ(scene.meshes[0].indices.back(), 2u);
 }
 
-TEST(SceneDefaults, CamerasAndLightsChangeInBetween) {
+TEST(SceneDefaults, ReadsCameraAndLightsCommands) {
   const Scene scene = parse(
-      R"("frame": [{"camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,-5, 0,0,0,1], "projection": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "reversed": true}},
+      R"("frame": [{"camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,-5, 0,0,0,1],
+    "projection": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "reversed": true}},
                                          {"lights": []}, {"lights": [{}, {}]}])");
   const auto& camera = std::get<SceneCamera>(scene.frame[0].what);
   EXPECT_TRUE(camera.reversed);
@@ -174,7 +187,7 @@ TEST(SceneDefaults, CamerasAndLightsChangeInBetween) {
   EXPECT_EQ(std::get<LightList>(scene.frame[2].what).size(), 2u);
 }
 
-TEST(SceneDefaults, TheBuiltInSceneIsTheShinyTeapot) {
+TEST(SceneDefaults, BuiltInSceneIsShinyTeapot) {
   const Scene scene = builtin_scene();
   EXPECT_EQ(scene.title, "shiny teapot");
   ASSERT_EQ(scene.meshes.size(), 1u);
@@ -182,7 +195,7 @@ TEST(SceneDefaults, TheBuiltInSceneIsTheShinyTeapot) {
   EXPECT_EQ(draw_of(scene, 1).state.shading, Shading::phong);
 }
 
-TEST(SceneOverrides, SizeChangesThePerspective) {
+TEST(SceneOverrides, SizeReplacesFrameBufferSize) {
   Scene scene = builtin_scene();
   apply({.width = 100, .height = 300}, scene);
   EXPECT_EQ(scene.framebuffer.width, 100);
@@ -190,13 +203,13 @@ TEST(SceneOverrides, SizeChangesThePerspective) {
   EXPECT_THROW(apply({.width = 0}, scene), Error);
 }
 
-TEST(SceneOverrides, ShadingIsThatOfEveryDraw) {
+TEST(SceneOverrides, ShadingAppliesToEveryDraw) {
   Scene scene = builtin_scene();
   apply({.shading = Shading::flat}, scene);
   EXPECT_EQ(draw_of(scene, 1).state.shading, Shading::flat);
 }
 
-TEST(SceneOverrides, APaletteTurnsTheBufferIntoAnIndexBuffer) {
+TEST(SceneOverrides, PaletteMakesIndexBuffer) {
   const struct {
     const char* name;
     int bits;
@@ -211,7 +224,7 @@ TEST(SceneOverrides, APaletteTurnsTheBufferIntoAnIndexBuffer) {
   }
 }
 
-TEST(SceneOverrides, BitsAndPaletteMustFit) {
+TEST(SceneOverrides, RejectsPaletteThatExceedsColorBits) {
   Scene scene = builtin_scene();
   EXPECT_THROW(apply({.color_bits = 4, .palette = "vga256"}, scene), Error);
   Scene grey = builtin_scene();

@@ -1,4 +1,4 @@
-// Bitmaps, images and shadows of scene files: defaults, and what becomes of their keys.
+// Bitmaps, images and shadows of scene files: defaults and keys.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -25,7 +25,7 @@ const Command& first(const Scene& scene) {
   return std::get<Command>(scene.frame.at(0).what);
 }
 
-TEST(ScenePixels, ABitmapHasDefaults) {
+TEST(ScenePixels, BitmapDefaults) {
   const Scene scene =
       scene_of(R"({"bitmap": {"at": [1.5, -2], "width": 9, "height": 2, "rows": ["ff80", "0aB5"]}})");
   const auto& command = first<BitmapCommand>(scene);
@@ -43,7 +43,7 @@ TEST(ScenePixels, ABitmapHasDefaults) {
                command.state.scissor);
 }
 
-TEST(ScenePixels, ADepthIsAPlaceOrATest) {
+TEST(ScenePixels, DepthIsNumberOrTest) {
   const auto of = [](const std::string& depth, const std::string& rest = "") {
     return first<BitmapCommand>(scene_of(
         R"({"bitmap": {"at": [0, 0], "width": 1, "height": 1, "rows": ["80"], "depth": )" + depth + "}}",
@@ -58,15 +58,15 @@ TEST(ScenePixels, ADepthIsAPlaceOrATest) {
   EXPECT_FALSE(of("0.5", R"("framebuffer": {"depth": "none"}, )").state.depth.enabled);
 }
 
-TEST(ScenePixels, AnImageIsReadOnceAndShownFromItsTop) {
+TEST(ScenePixels, ReadsImageOnceWithTopRowFirst) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("tessera_scene_pixels_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "two.ppm", std::ios::binary)
       << "P6 2 2 255\n"
       << std::string("\x0a\x14\x1e\x28\x32\x3c\x46\x50\x5a\x64\x6e\x78", 12);
-  std::ofstream(folder / "scene.json")
-      << R"({"tessera": 1, "framebuffer": {"width": 4, "height": 4}, "frame": [{"clear": {"color": [0, 0, 0, 1], "depth": 1}},
+  std::ofstream(folder / "scene.json") << R"({"tessera": 1, "framebuffer": {"width": 4, "height": 4},
+    "frame": [{"clear": {"color": [0, 0, 0, 1], "depth": 1}},
     {"image": {"at": [{"keys": [[0, 1], [1, 2]]}, 1], "file": "two.ppm"}}]})";
   SceneFile file((folder / "scene.json").string());
   for (const int shift : {0, 1}) {
@@ -88,11 +88,13 @@ TEST(ScenePixels, AnImageIsReadOnceAndShownFromItsTop) {
   std::filesystem::remove_all(folder);
 }
 
-// As the file has them: not multiplied with their alpha.
-TEST(ScenePixels, ImagesKeepTheirAlpha) {
-  const Picture grey = read_picture(TESSERA_TEST_SCENES "/textures/letter_grey_alpha.png"),
-                color = read_picture(TESSERA_TEST_SCENES "/textures/letter_rgba.png");
-  bool clear = false, between = false, bright = false;
+// Colours are not multiplied by alpha.
+TEST(ScenePixels, ImagesKeepStraightAlpha) {
+  const Picture grey = read_picture(TESSERA_TEST_SCENES "/textures/letter_grey_alpha.png");
+  const Picture color = read_picture(TESSERA_TEST_SCENES "/textures/letter_rgba.png");
+  bool clear = false;
+  bool between = false;
+  bool bright = false;
   for (const Picture* picture : {&grey, &color})
     for (std::size_t i = 0; i < picture->rgba.size(); i += 4) {
       const std::uint8_t alpha = picture->rgba[i + 3];
@@ -107,7 +109,7 @@ TEST(ScenePixels, ImagesKeepTheirAlpha) {
   EXPECT_TRUE(bright) << "a colour above its alpha";
 }
 
-TEST(ScenePixels, AShadowHasDefaultsAndTheLightsInForce) {
+TEST(ScenePixels, ShadowDefaultsAndCurrentLights) {
   const std::string pot = R"("meshes": {"pot": {"builtin": "cube"}}, )";
   const Scene scene = scene_of(R"({"draw": "pot", "shadow_on": {"plane": [0, 0, 1, 2]}})", pot);
   const auto& shadow = first<DrawCommand>(scene).state.shadow_on;
@@ -117,7 +119,8 @@ TEST(ScenePixels, AShadowHasDefaultsAndTheLightsInForce) {
   EXPECT_EQ(shadow->color.r, 0);
   EXPECT_EQ(shadow->color.a, 1);
   const Scene later = scene_of(
-      R"({"lights": [{}, {"position": [0, 5, 0, 1]}]}, {"draw": "pot", "shadow_on": {"plane": [0, 1, 0, 2], "light": 1}})",
+      R"({"lights": [{}, {"position": [0, 5, 0, 1]}]}, {"draw": "pot", "shadow_on": {"plane": [0, 1, 0, 2],
+    "light": 1}})",
       pot);
   EXPECT_EQ(std::get<DrawCommand>(later.frame.at(1).what).state.shadow_on->light, 1u);
 }

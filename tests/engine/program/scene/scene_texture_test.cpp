@@ -1,5 +1,4 @@
-// Textures of scene files: what of an image file arrives, what is read once, and what is said of files that
-// cannot be read.
+// Textures of scene files: channels and keys, caching, and errors of unreadable files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +43,7 @@ class SceneTexture : public testing::Test {
 
 const std::string kTextures = TESSERA_TEST_SCENES "/textures/";
 
-TEST_F(SceneTexture, FilesKeepTheirChannels) {
+TEST_F(SceneTexture, KeepsChannelsOfFiles) {
   const Scene scene =
       parse("\"textures\": {\"g\": {\"file\": \"" + kTextures + "letter_grey.png\"}, \"ga\": {\"file\": \"" +
             kTextures + "letter_grey_alpha.png\"}, \"rgb\": {\"file\": \"" + kTextures +
@@ -57,12 +56,14 @@ TEST_F(SceneTexture, FilesKeepTheirChannels) {
   }
 }
 
-TEST_F(SceneTexture, EveryKeyArrives) {
+TEST_F(SceneTexture, ReadsAllKeys) {
   write("a.ppm", std::string("P6 2 1 255\n") + "abcdef");
   const Scene scene = parse(R"("textures": {"plain": {"file": "a.ppm"},
-    "t": {"file": "a.ppm", "mag": "nearest", "min": "nearest_mipmap_linear", "wrap_s": "clamp_to_edge", "wrap_t": "mirrored_repeat"}},
+    "t": {"file": "a.ppm", "mag": "nearest", "min": "nearest_mipmap_linear", "wrap_s": "clamp_to_edge",
+    "wrap_t": "mirrored_repeat"}},
     "meshes": {"m": {"positions": [[0,0,0],[1,0,0],[0,1,0]], "texcoords": [[0,0.5],[1,2],[3,-4]]}},
-    "frame": [{"draw": "m"}, {"draw": "m", "texture": "t", "texture_env": "blend", "texture_env_color": [0.5, 2, -1, 0.25]}])");
+    "frame": [{"draw": "m"}, {"draw": "m", "texture": "t", "texture_env": "blend",
+    "texture_env_color": [0.5, 2, -1, 0.25]}])");
   ASSERT_EQ(scene.textures.size(), 2u);
   EXPECT_EQ(scene.textures[0]->sampler().mag, TextureFilter::linear);
   EXPECT_EQ(scene.textures[0]->sampler().min, TextureFilter::linear_mipmap_linear);
@@ -85,7 +86,7 @@ TEST_F(SceneTexture, EveryKeyArrives) {
   EXPECT_EQ(state.texture_env_color.a, 0.25f);
 }
 
-TEST_F(SceneTexture, AFileIsReadOnceForAnAnimation) {
+TEST_F(SceneTexture, ReadsFileOncePerAnimation) {
   write("a.ppm", std::string("P6 2 1 255\n") + "abcdef");
   SceneFile file(
       write("s.json",
@@ -97,13 +98,17 @@ TEST_F(SceneTexture, AFileIsReadOnceForAnAnimation) {
   EXPECT_NE(first.textures[0], first.textures[1]);
 }
 
-// Drawn texel by pixel: rows from the top, components side by side.
-TEST_F(SceneTexture, TexelsMayStandInTheScene) {
-  SceneFile file(write(
-      "s.json",
-      R"({"tessera": 1, "framebuffer": {"width": 3, "height": 2, "alpha": 8}, "camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "projection": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]},
-    "textures": {"t": {"channels": 4, "rows": ["00112233445566778899aAbB", "ccddeeff0123456789abcdef"], "mag": "nearest"}, "u": {"channels": 4, "rows": ["00112233445566778899aAbB", "ccddeeff0123456789abcdef"]}},
-    "meshes": {"m": {"primitive": "quads", "positions": [[-1,-1,0],[1,-1,0],[1,1,0],[-1,1,0]], "texcoords": [[0,0],[1,0],[1,1],[0,1]]}},
+// Draws one texel per pixel: rows from the top, components interleaved.
+TEST_F(SceneTexture, ReadsTexelsFromScene) {
+  SceneFile file(write("s.json",
+                       R"({"tessera": 1, "framebuffer": {"width": 3, "height": 2, "alpha": 8},
+    "camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1],
+    "projection": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]},
+    "textures": {"t": {"channels": 4, "rows": ["00112233445566778899aAbB", "ccddeeff0123456789abcdef"],
+    "mag": "nearest"}, "u": {"channels": 4, "rows": ["00112233445566778899aAbB",
+    "ccddeeff0123456789abcdef"]}},
+    "meshes": {"m": {"primitive": "quads", "positions": [[-1,-1,0],[1,-1,0],[1,1,0],[-1,1,0]],
+    "texcoords": [[0,0],[1,0],[1,1],[0,1]]}},
     "light_model": {"ambient": [{"keys": [[0, 0], [1, 1]]}, 0, 0, 1]},
     "frame": [{"draw": "m", "texture": "t", "texture_env": "replace", "lighting": false}]})"));
   const Scene scene = file.at(0);
@@ -117,7 +122,7 @@ TEST_F(SceneTexture, TexelsMayStandInTheScene) {
   EXPECT_NE(scene.textures[0], scene.textures[1]) << "another sampler";
 }
 
-TEST_F(SceneTexture, FilesThatAreMissingOrBrokenAreNamed) {
+TEST_F(SceneTexture, ErrorsNameMissingAndBrokenFiles) {
   EXPECT_THAT(error("none.png"), AllOf(HasSubstr("scene.json: /textures/t/file: cannot read"),
                                        HasSubstr("none.png"), HasSubstr("No such file")));
   write("short.ppm", "P6 4 4 255\nabc");
@@ -133,9 +138,10 @@ TEST_F(SceneTexture, FilesThatAreMissingOrBrokenAreNamed) {
   EXPECT_THAT(error("."), HasSubstr("cannot read"));
 }
 
-TEST_F(SceneTexture, BuiltInMeshesHaveCoordinates) {
+TEST_F(SceneTexture, BuiltInMeshesHaveTextureCoordinates) {
   const Scene scene = parse(
-      R"("meshes": {"a": {"builtin": "quad"}, "b": {"builtin": "teapot", "detail": 2}, "c": {"builtin": "cone", "detail": 3}})");
+      R"("meshes": {"a": {"builtin": "quad"}, "b": {"builtin": "teapot", "detail": 2},
+    "c": {"builtin": "cone", "detail": 3}})");
   EXPECT_EQ(scene.meshes[0].texcoords, (std::vector<float>{0, 0, 1, 0, 0, 1, 1, 1}));
   for (const MeshData& mesh : scene.meshes) EXPECT_EQ(mesh.texcoords.size(), 2 * mesh.vertex_count());
 }

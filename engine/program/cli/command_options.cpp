@@ -1,0 +1,232 @@
+#include "engine/program/cli/command_options.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/program/cli/parse_overrides.h"
+#include "engine/program/cli/validators.h"
+#include "engine/tessera/tessera.hpp"
+
+namespace tessera::program::cli {
+namespace {
+
+constexpr const char* kRenderExamples = R"(Examples:
+  tessera render                                  the built-in teapot, as tessera.png
+  tessera render scene.json -o picture.png        a scene
+  tessera render truck.glb --size 1280x720        a model, as truck.render.png
+  tessera render --palette ega16 -o ega.png       16 colours, nearest entry
+  tessera render --planes planes --stats          also every bitplane, and statistics
+  tessera render scene.json --frames 50 -o 'frame_{frame}.png'     an animation
+  tessera render -o term                          the picture in the terminal
+  tessera render scene.json --compare right.png --threshold 2      exits with 3 if it differs)";
+
+constexpr const char* kSelftestExamples = R"(Examples:
+  tessera selftest
+  tessera selftest --hashes > here.txt            on one machine
+  tessera selftest --expect here.txt              on another)";
+
+template <class Enum>
+struct Choice {
+  std::string_view name;
+  Enum value;
+};
+
+// Adds an option that takes the name of one of `choices`.
+template <class Target, class Enum>
+void add_choice(CLI::App& command, const std::string& option, Target& target,
+                const std::vector<Choice<Enum>>& choices, const std::string& text) {
+  Names names;
+  std::string value_text;
+  for (const Choice<Enum>& choice : choices) {
+    names.push_back(choice.name);
+    value_text += (value_text.empty() ? "" : "|") + std::string(choice.name);
+  }
+  const auto set = [&target, choices](const std::string& typed) {
+    for (const Choice<Enum>& choice : choices)
+      if (choice.name == typed) target = choice.value;
+  };
+  command.add_option_function<std::string>(option, set, text)->option_text(value_text)->check(one_of(names));
+}
+
+void add_output(CLI::App& command, RenderRequest& request) {
+  command
+      .add_option(
+          "-o,--output", request.output.path,
+          "picture to write: .png, .ppm, .pgm, .pfm, .raw or another format of OpenImageIO; {frame} in "
+          "the name is the frame's number; - is the standard output (PPM), term the terminal; default: "
+          "INPUT.render.png in the current folder, tessera.png for the built-in scene")
+      ->option_text("FILE")
+      ->check(not_empty("FILE's name"));
+  command
+      .add_option("--compression", request.output.compression,
+                  "compression of PNG files: 0 (none) .. 9 (smallest); default: 3")
+      ->option_text("N")
+      ->transform(integer_from(0, 9));
+}
+
+void add_scene_overrides(CLI::App& command, SceneOverrides& overrides) {
+  command
+      .add_option_function<std::string>(
+          "--size",
+          [&overrides](const std::string& text) {
+            if (!parse_size(text, overrides))
+              throw CLI::ValidationError("--size", "found \"" + text +
+                                                       "\", expected WIDTHxHEIGHT, each 1 to " +
+                                                       std::to_string(kMaxFrameBufferSize));
+          },
+          "size of the picture; default: the scene's, or 640x480 for a model")
+      ->option_text("WIDTHxHEIGHT");
+  add_choice<std::optional<Shading>, Shading>(
+      command, "--shading", overrides.shading,
+      {{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}},
+      "shading of every draw");
+  command.add_option("--color-bits", overrides.color_bits, "colour planes: 1 .. 24")
+      ->option_text("N")
+      ->transform(integer_from(1, 24));
+  command.add_option("--palette", overrides.palette, "palette; the colour buffer then holds indices")
+      ->option_text("bw|gray|ega16|vga256|web216")
+      ->check(one_of({"bw", "gray", "ega16", "vga256", "web216"}));
+}
+
+void add_planes(CLI::App& command, RenderRequest& request) {
+  command
+      .add_option("--planes", request.planes_folder,
+                  "folder for all planes of colour, depth, stencil and accumulation: color_00.pbm, ...; set "
+                  "bits are PBM's 1")
+      ->option_text("DIR")
+      ->check(not_empty("DIR's name"));
+}
+
+void add_view(CLI::App& command, SceneOverrides& overrides) {
+  command
+      .add_option_function<std::string>(
+          "--camera",
+          [&overrides](const std::string& text) {
+            if (!parse_camera(text, overrides))
+              throw CLI::ValidationError(
+                  "--camera",
+                  "found \"" + text +
+                      "\", expected EX,EY,EZ,TX,TY,TZ[,FOVY]: eye, target, vertical angle in degrees");
+          },
+          "camera for the whole frame, in place of the scene's or the model's")
+      ->option_text("EX,EY,EZ,TX,TY,TZ[,FOVY]");
+  command
+      .add_option_function<std::string>(
+          "--light",
+          [&overrides](const std::string& text) {
+            if (!parse_light(text, overrides))
+              throw CLI::ValidationError(
+                  "--light",
+                  "found \"" + text + "\", expected X,Y,Z[,W]: a position, or with W = 0 a direction");
+          },
+          "white light for the whole frame, in place of the scene's; may be repeated")
+      ->option_text("X,Y,Z[,W]")
+      ->trigger_on_parse();  // called once per occurrence
+}
+
+void add_repetition(CLI::App& command, RenderRequest& request) {
+  command
+      .add_option("--frames", request.frames,
+                  "pictures of an animation, t = 0 .. 1; {frame} in names is the number")
+      ->option_text("N")
+      ->transform(integer_from(1, 1000000));
+  command.add_option("--repeat", request.repeat, "render each picture N times; --stats shows the median")
+      ->option_text("N")
+      ->transform(integer_from(1, 1000000));
+}
+
+void add_comparison(CLI::App& command, RenderRequest& request) {
+  command
+      .add_option("--compare", request.reference,
+                  "reference for the last frame; exits with 3 if the frame differs")
+      ->option_text("FILE")
+      ->check(not_empty("FILE's name"));
+  command
+      .add_option("--threshold", request.threshold,
+                  "difference that --compare tolerates, in levels of 255; default: 0")
+      ->option_text("N")
+      ->transform(integer_from(0, 255));
+}
+
+void add_renderer_options(CLI::App& command, RendererOptions& options) {
+  command.add_option("--threads", options.threads, "threads; default: TESSERA_THREADS, or all cores")
+      ->option_text("N")
+      ->transform(integer_from(1, 1024));
+  command.add_option("--tile-size", options.tile_size, "side of a tile in pixels; default: chosen per frame")
+      ->option_text("32|64|128")
+      ->check(one_of({"32", "64", "128"}));
+  add_choice<InstructionSet, InstructionSet>(command, "--isa", options.instruction_set,
+                                             {{"scalar", InstructionSet::scalar},
+                                              {"avx2", InstructionSet::avx2},
+                                              {"avx512", InstructionSet::avx512}},
+                                             "instruction set; default: the best of this machine");
+}
+
+void add_reports(CLI::App& command, RenderRequest& request) {
+  command.add_flag("--explain", request.explain,
+                   "list for each draw the effects that run or are skipped, and why");
+  command
+      .add_flag("--stats{text}", request.stats_name,
+                "print statistics of the frame: as text on stderr, or with =json as JSON on stdout")
+      ->option_text("[=text|json]")
+      ->check(one_of({"text", "json"}));
+  add_choice<ShowProgress, ShowProgress>(
+      command, "--progress", request.progress,
+      {{"auto", ShowProgress::automatic}, {"always", ShowProgress::always}, {"never", ShowProgress::never}},
+      "show progress on stderr; default: auto, on a terminal after a second");
+  add_choice<std::optional<LogLevel>, LogLevel>(
+      command, "--log", request.log,
+      {{"debug", LogLevel::debug}, {"info", LogLevel::info}, {"warning", LogLevel::warning}},
+      "print the library's log messages on stderr");
+}
+
+}  // namespace
+
+CLI::App* add_render(CLI::App& program, RenderRequest& request) {
+  CLI::App* command = program.add_subcommand("render",
+                                             "Render a scene (.json) or a model (.obj, .gltf, .glb, .ply, "
+                                             ".stl, ...); without one, the built-in teapot");
+  command->footer(kRenderExamples);
+  command->option_defaults()->take_last();
+  command->add_option("input", request.input, "scene or model")
+      ->option_text("[SCENE.json | MODEL]")
+      ->check(not_empty("a scene's or a model's name"));
+  add_output(*command, request);
+  add_scene_overrides(*command, request.overrides);
+  add_planes(*command, request);
+  add_view(*command, request.overrides);
+  add_repetition(*command, request);
+  add_comparison(*command, request);
+  add_renderer_options(*command, request.options);
+  add_reports(*command, request);
+  return command;
+}
+
+CLI::App* add_selftest(CLI::App& program, SelftestRequest& request) {
+  CLI::App* command = program.add_subcommand(
+      "selftest", "Check that this machine renders scenes and exact cases correctly, in every configuration");
+  command->footer(kSelftestExamples);
+  command->option_defaults()->take_last();
+  command
+      ->add_option("--expect", request.expected,
+                   "expected hashes of the scenes, from another machine or version; default: those of this "
+                   "version")
+      ->option_text("FILE")
+      ->check(not_empty("FILE's name"));
+  command->add_flag("--hashes", request.hashes,
+                    "only print the hashes of the scenes on this machine, in the format of --expect");
+  command
+      ->add_option("--threads", request.threads,
+                   "number of threads to compare with one; default: TESSERA_THREADS, or all cores")
+      ->option_text("N")
+      ->transform(integer_from(1, 1024));
+  command->parse_complete_callback([&request] {
+    if (request.hashes && !request.expected.empty())
+      throw CLI::ValidationError("--hashes", "prints hashes without comparing, excludes --expect");
+  });
+  return command;
+}
+
+}  // namespace tessera::program::cli
