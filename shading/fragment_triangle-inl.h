@@ -32,6 +32,7 @@ struct FragmentTriangle {
   const ShadedTriangle& triangle;
   const int face;  // 0 front, 1 back
   const bool has_depth;
+  const bool evaluates_colors;
   StencilTestConstants stencil{};     // of this face, if there is a test
   std::int32_t id = 0;                // ColorWrite::deferred: number of the triangle
   std::uint32_t packed_color = 0;     // ColorWrite::constant
@@ -50,19 +51,17 @@ struct FragmentTriangle {
         triangle(shaded),
         face(shaded.back ? 1 : 0),
         has_depth(draw.path.uses_depth()),
+        evaluates_colors(needs_colors(draw)),
         texture(texture_of(draw, shaded.back)) {
     if (ops.stencil) stencil = stencil_test_constants(ops.faces[face], ops.stencil_max);
   }
   /// Prepares the evaluation of colors; after flat_color and block_colors are set.
   HWY_INLINE void begin_colors() {
-    if (!evaluates_colors()) return;
+    if (!evaluates_colors) return;
     begin_surface(context, surface, triangle);
     surface.gathers_coordinates = false;  // an alpha test may sample the texture before
     if (flat_color != nullptr || block_colors != nullptr) surface.attribute_count = 0;
     else surface.clamps_colors = surface.interpolates_colors;
-  }
-  HWY_INLINE bool evaluates_colors() const {
-    return draw.path.color_write == ColorWrite::evaluated || draw.captures_normals;
   }
   /// Whether the alpha test depends on the texture.
   HWY_INLINE bool tests_texels() const {
@@ -74,6 +73,12 @@ struct FragmentTriangle {
   void operator()(int bx, int by, const BlockFragments* blocks);  // fragment_triangle.cpp
 
  private:
+  /// Draws of Kind::triangles_msaa with interpolated colors come here with wide triangles.
+  static HWY_INLINE bool needs_colors(const TileDraw& draw) {
+    return draw.path.color_write == ColorWrite::evaluated ||
+           draw.path.color_write == ColorWrite::interpolated || draw.captures_normals;
+  }
+
   // fragment_triangle.cpp
   void sample_block(int bx, int by, std::uint32_t bits);
   std::uint32_t test(const TileAttachments& sample, int bx, int by, const BlockFragments& block);

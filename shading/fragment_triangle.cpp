@@ -30,7 +30,7 @@ HWY_NOINLINE void FragmentTriangle::operator()(int bx, int by, const BlockFragme
   const int index = context.block_index(bx, by);
   if (color_write == ColorWrite::deferred) return store_ids(index, passed);
   context.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(bits));
-  if (evaluates_colors()) evaluate_block(bx, by, bits);
+  if (evaluates_colors) evaluate_block(bx, by, bits);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     if (chunk_bits(bits, chunk) == 0) continue;
     const Colors source = color_write == ColorWrite::constant ? Colors{} : colors(bx, by, chunk);

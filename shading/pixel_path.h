@@ -35,7 +35,7 @@ enum class DepthTestPath : std::uint8_t {
 struct PixelPath {
   enum class Kind : std::uint8_t {
     triangles,           ///< by size: pixels, boxes or rows of blocks
-    triangles_msaa,      ///< the same with several samples
+    triangles_msaa,      ///< the same with several samples; groups with wide triangles: as fragments
     textured_triangles,  ///< texels and colors in registers, stored at once
     fragments,           ///< triangles with fragment operations, block by block
     fragments_msaa,      ///< the same with several samples
