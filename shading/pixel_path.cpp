@@ -165,7 +165,7 @@ const char* name(ColorWrite color_write) {
 
 std::string describe(const PixelPath& path) {
   static constexpr const char* kDepthNames[] = {"none", "unorm16", "unorm24", "unorm32", "float32"};
-  std::string text = std::string(name(path.kind)) + ", color " + name(path.color_write) + ", depth " +
+  std::string text = std::string(name(path.kind)) + ", colour " + name(path.color_write) + ", depth " +
                      kDepthNames[static_cast<int>(path.depth_format)];
   if (path.depth_test == DepthTestPath::less_write) text += ", less and write";
   return text;

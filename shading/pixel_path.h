@@ -68,7 +68,7 @@ PixelPath choose_pixel_path(const PixelPathFrame& frame, const TileDraw& draw);
 
 const char* name(PixelPath::Kind kind);
 const char* name(ColorWrite color_write);
-/// One line without its end, for example "triangles, color interpolated, depth unorm24, less and write".
+/// One line without its end, for example "triangles, colour interpolated, depth unorm24, less and write".
 std::string describe(const PixelPath& path);
 
 }  // namespace tessera::detail

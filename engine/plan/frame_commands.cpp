@@ -136,18 +136,21 @@ void plan_geometry(FrameCommands& commands, FrameRecording& recording, std::dequ
   while (buffers.size() < commands.plans.size()) buffers.emplace_back();
   for (std::size_t i = 0; i < commands.plans.size(); ++i) {
     const RecordedDraw& draw = recording.draws[commands.plan_draw[i]];
-    GeometryDraw geometry;
-    geometry.mesh = &draw.mesh;
-    geometry.plan = commands.plans[i];
-    geometry.buffers = &buffers[i];
-    geometry.layout = &target.layout;
-    geometry.palette_search = commands.plans[i]->uses_palette() ? target.ensure_palette_search() : nullptr;
-    geometry.provoking_vertex = draw.state.provoking_vertex;
-    commands.geometry.push_back(geometry);
+    commands.geometry.push_back(geometry_draw(draw, *commands.plans[i], target, buffers[i]));
   }
 }
 
 }  // namespace
+
+GeometryDraw geometry_draw(const RecordedDraw& draw, const DrawPlan& plan, FrameBufferState& target,
+                           DrawBuffers& buffers) {
+  return {.mesh = &draw.mesh,
+          .plan = &plan,
+          .buffers = &buffers,
+          .layout = &target.layout,
+          .palette_search = plan.uses_palette() ? target.ensure_palette_search() : nullptr,
+          .provoking_vertex = draw.state.provoking_vertex};
+}
 
 void FrameCommands::reset() {
   plans.clear();

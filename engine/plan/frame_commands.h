@@ -33,6 +33,10 @@ struct FrameCommands {
   void reset();
 };
 
+/// The geometry of a planned draw.
+GeometryDraw geometry_draw(const RecordedDraw& draw, const DrawPlan& plan, FrameBufferState& target,
+                           DrawBuffers& buffers);
+
 /// Plans every draw, clear and accumulation that can change a pixel.
 /// @param commands   is replaced
 /// @param presented  the colour goes to an image, too

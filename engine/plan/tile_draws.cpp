@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "engine/plan/frame_commands.h"
-#include "shading/pixel_path.h"
 
 namespace tessera::detail {
 namespace {
@@ -55,67 +54,96 @@ std::span<const PolygonMode> polygon_modes_of(const DrawPlan& plan) {
   return {kInOrder + first, last - first + 1};
 }
 
-void build_tile_draws(FrameCommands& commands, const PixelPathFrame& frame) {
-  for (const GeometryDraw& geometry : commands.geometry) {
-    const DrawPlan& plan = *geometry.plan;
-    DrawBuffers& buffers = *geometry.buffers;
-    TileDraw draw;
-    draw.topology = plan.topology;
-    draw.element_corners = corners_of(plan.topology);
-    draw.size = plan.topology == Topology::points ? plan.point_size : plan.line_width;
-    draw.vertices = buffers.vertices.data();
-    draw.indices = geometry.indices();
-    draw.attributes = buffers.attributes.data();
-    draw.provoking = std::max(provoking_place(geometry.mesh->primitive, geometry.provoking_vertex), 0);
-    draw.rect = plan.rect;
-    draw.front_is_clockwise = plan.front_is_clockwise;
-    draw.facing = geometry.facing();
-    draw.depth_offsets = geometry.depth_offsets();
-    draw.primitive_triangles = static_cast<std::uint32_t>(geometry.mesh->triangles_per_polygon());
-    draw.uses_depth = plan.uses_depth;
-    draw.depth_write = plan.depth_write;
-    draw.depth_test = plan.depth_test;
-    if (plan.pixel_rectangle) draw.texels = &*plan.pixel_rectangle;
-    draw.depth_key = plan.depth_key;
-    draw.source = plan.source;
-    draw.write_mask = plan.write_mask;
-    draw.deferred = plan.deferred;
-    draw.scaled_colors = plan.scaled_colors;
-    draw.packed_colors[0] = buffers.packed_colors[0].data();
-    draw.packed_colors[1] = buffers.packed_colors[plan.two_sided ? 1 : 0].data();
-    std::copy_n(plan.is_index, 2, draw.index);
-    draw.programs[0] = &plan.front;
-    draw.programs[1] = plan.two_sided ? &plan.back : &plan.front;
-    if (plan.source == ColorSource::constant)
-      draw.packed_color =
-          plan.is_index[0]
-              ? quantize_index(*geometry.layout, plan.constant_index)
-              : pack_color_or_index(*geometry.layout, geometry.palette_search, plan.constant_color[0],
-                                    plan.constant_color[1], plan.constant_color[2]);
-    if (plan.textures_per_pixel) {
-      draw.texture = &plan.texture.texture;
-      for (int face = 0; face < 2; ++face)
-        draw.color[face] = {plan.constant_color[0], plan.constant_color[1], plan.constant_color[2],
-                            plan.alpha[face]};
-    }
-    if (plan.has_ops) set_fragment_ops(draw, plan, buffers);
-    set_varyings(draw, plan);
-    const std::size_t plan_number = static_cast<std::size_t>(&geometry - commands.geometry.data());
-    const auto add = [&] {
-      draw.path = choose_pixel_path(frame, draw);
-      commands.tile_draws.push_back(draw);
-      commands.tile_draw_plan.push_back(plan_number);
-    };
-    const std::span<const PolygonMode> styles = polygon_modes_of(plan);
-    if (styles.empty()) add();
-    for (const PolygonMode style : styles) {
-      if (style != PolygonMode::fill) {
-        draw.topology = style == PolygonMode::line ? Topology::lines : Topology::points;
-        draw.size = style == PolygonMode::line ? plan.line_width : plan.point_size;
-      }
-      add();
-    }
+namespace {
+
+TileDraw tile_draw(const GeometryDraw& geometry) {
+  const DrawPlan& plan = *geometry.plan;
+  DrawBuffers& buffers = *geometry.buffers;
+  TileDraw draw;
+  draw.topology = plan.topology;
+  draw.element_corners = corners_of(plan.topology);
+  draw.size = plan.topology == Topology::points ? plan.point_size : plan.line_width;
+  draw.vertices = buffers.vertices.data();
+  draw.indices = geometry.indices();
+  draw.attributes = buffers.attributes.data();
+  draw.provoking = std::max(provoking_place(geometry.mesh->primitive, geometry.provoking_vertex), 0);
+  draw.rect = plan.rect;
+  draw.front_is_clockwise = plan.front_is_clockwise;
+  draw.facing = geometry.facing();
+  draw.depth_offsets = geometry.depth_offsets();
+  draw.primitive_triangles = static_cast<std::uint32_t>(geometry.mesh->triangles_per_polygon());
+  draw.uses_depth = plan.uses_depth;
+  draw.depth_write = plan.depth_write;
+  draw.depth_test = plan.depth_test;
+  if (plan.pixel_rectangle) draw.texels = &*plan.pixel_rectangle;
+  draw.depth_key = plan.depth_key;
+  draw.source = plan.source;
+  draw.write_mask = plan.write_mask;
+  draw.deferred = plan.deferred;
+  draw.scaled_colors = plan.scaled_colors;
+  draw.packed_colors[0] = buffers.packed_colors[0].data();
+  draw.packed_colors[1] = buffers.packed_colors[plan.two_sided ? 1 : 0].data();
+  std::copy_n(plan.is_index, 2, draw.index);
+  draw.programs[0] = &plan.front;
+  draw.programs[1] = plan.two_sided ? &plan.back : &plan.front;
+  if (plan.source == ColorSource::constant)
+    draw.packed_color = plan.is_index[0] ? quantize_index(*geometry.layout, plan.constant_index)
+                                         : pack_color_or_index(*geometry.layout, geometry.palette_search,
+                                                               plan.constant_color[0], plan.constant_color[1],
+                                                               plan.constant_color[2]);
+  if (plan.textures_per_pixel) {
+    draw.texture = &plan.texture.texture;
+    for (int face = 0; face < 2; ++face)
+      draw.color[face] = {plan.constant_color[0], plan.constant_color[1], plan.constant_color[2],
+                          plan.alpha[face]};
   }
+  if (plan.has_ops) set_fragment_ops(draw, plan, buffers);
+  set_varyings(draw, plan);
+  return draw;
+}
+
+/// Calls add(draw) for each tile draw of a plan, its code path included.
+template <class Add>
+void for_each_tile_draw(const GeometryDraw& geometry, const PixelPathFrame& frame, const Add& add) {
+  const DrawPlan& plan = *geometry.plan;
+  TileDraw draw = tile_draw(geometry);
+  const auto add_with_path = [&] {
+    draw.path = choose_pixel_path(frame, draw);
+    add(draw);
+  };
+  const std::span<const PolygonMode> modes = polygon_modes_of(plan);
+  if (modes.empty()) add_with_path();
+  for (const PolygonMode mode : modes) {
+    if (mode != PolygonMode::fill) {
+      draw.topology = mode == PolygonMode::line ? Topology::lines : Topology::points;
+      draw.size = mode == PolygonMode::line ? plan.line_width : plan.point_size;
+    }
+    add_with_path();
+  }
+}
+
+}  // namespace
+
+void build_tile_draws(FrameCommands& commands, const PixelPathFrame& frame) {
+  for (std::size_t plan = 0; plan < commands.geometry.size(); ++plan)
+    for_each_tile_draw(commands.geometry[plan], frame, [&](const TileDraw& draw) {
+      commands.tile_draws.push_back(draw);
+      commands.tile_draw_plan.push_back(plan);
+    });
+}
+
+std::vector<PixelPath> pixel_paths_of(const RecordedDraw& draw, const DrawPlan& plan,
+                                      FrameBufferState& target) {
+  std::vector<PixelPath> paths;
+  if (plan.is_noop) return paths;
+  DrawBuffers buffers;
+  const PixelPathFrame frame{.layout = target.layout,
+                             .depth_format = target.depth_format,
+                             .samples = target.format.samples,
+                             .isa = available_isas().front()};
+  for_each_tile_draw(geometry_draw(draw, plan, target, buffers), frame,
+                     [&](const TileDraw& tile_draw) { paths.push_back(tile_draw.path); });
+  return paths;
 }
 
 }  // namespace tessera::detail

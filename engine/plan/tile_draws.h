@@ -2,14 +2,17 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "framebuffer/tessera/enums.hpp"
+#include "shading/pixel_path.h"
 
 namespace tessera::detail {
 
 struct DrawPlan;
+struct FrameBufferState;
 struct FrameCommands;
-struct PixelPathFrame;
+struct RecordedDraw;
 
 /// Modes in which the polygons of a plan are drawn, in the order of its tile draws. Empty: one tile draw,
 /// filled.
@@ -18,5 +21,10 @@ std::span<const PolygonMode> polygon_modes_of(const DrawPlan& plan);
 /// Fills in `commands.tile_draws`, with the code path of each. @pre the memory of the vertex stage is
 /// allocated
 void build_tile_draws(FrameCommands& commands, const PixelPathFrame& frame);
+
+/// The code paths of a planned draw: one per tile draw. Shading is deferred where that is possible, and the
+/// instruction set is the best of this machine. Empty if the draw can change no pixel.
+std::vector<PixelPath> pixel_paths_of(const RecordedDraw& draw, const DrawPlan& plan,
+                                      FrameBufferState& target);
 
 }  // namespace tessera::detail

@@ -7,6 +7,7 @@
 
 #include "engine/plan/draw_plan.h"
 #include "engine/plan/explain_text.h"
+#include "engine/plan/tile_draws.h"
 #include "engine/record/checks.h"
 #include "engine/record/planar_shadow.h"
 #include "engine/record/recording.h"
@@ -264,7 +265,16 @@ std::vector<EffectNote> Frame::effects(std::size_t draw_index) const {
 
 std::string Frame::explain(std::size_t draw_index) const {
   const std::vector<EffectNote> notes = effects(draw_index);
-  return translate_bad_alloc("Frame::explain", [&] { return explain_text(notes); });
+  return translate_bad_alloc("Frame::explain", [&] {
+    const FloatingPointMode mode;
+    const RecordedDraw& draw = recording_->draws[draw_index];
+    DrawPlan plan;
+    plan_draw(plan, draw, *recording_->target, false, EffectNotes(nullptr));
+    std::string text = explain_text(notes);
+    for (const PixelPath& path : pixel_paths_of(draw, plan, *recording_->target))
+      text += "  code path: " + describe(path) + "\n";
+    return text;
+  });
 }
 
 }  // namespace tessera

@@ -136,11 +136,11 @@ TEST(PixelPath, CapturedIdsArePackedColors) {
 
 TEST(PixelPath, IsDescribedInOneLine) {
   EXPECT_EQ(describe(PixelPathCase().choose()),
-            "triangles, color interpolated, depth unorm24, less and write");
+            "triangles, colour interpolated, depth unorm24, less and write");
   PixelPathCase c;
   c.draw.source = ColorSource::none;
   c.frame.depth_format = DepthFormat::none;
-  EXPECT_EQ(describe(c.choose()), "triangles, color none, depth none");
+  EXPECT_EQ(describe(c.choose()), "triangles, colour none, depth none");
 }
 
 }  // namespace

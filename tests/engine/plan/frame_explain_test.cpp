@@ -253,7 +253,22 @@ TEST(Explain, TextHasOneLinePerEffect) {
             "  light 0 spot: off, the cutoff is 180 degrees\n"
             "  light 0 highlight: skipped, the specular product is black\n"
             "  light 0 ambient part: differs between points\n"
-            "  shading: colours interpolated as triangles are drawn\n");
+            "  shading: colours interpolated as triangles are drawn\n"
+            "  code path: triangles with several samples, colour deferred, depth unorm24, less and write\n");
+}
+
+TEST(Explain, NamesTheCodePathOfEachPolygonMode) {
+  Setting s;
+  s.state.lighting = false;
+  EXPECT_THAT(explain(s),
+              HasSubstr("  code path: triangles, colour constant, depth unorm24, less and write\n"));
+  s.state.alpha_test = AlphaTest{};
+  EXPECT_THAT(explain(s), HasSubstr("  code path: fragments of triangles, colour evaluated, depth unorm24\n"));
+  s.state = {.lighting = false, .back_mode = PolygonMode::line};
+  EXPECT_THAT(explain(s), AllOf(HasSubstr("  code path: triangles, colour constant, depth unorm24"),
+                                HasSubstr("  code path: fragments of lines, colour")));
+  s.state.depth.test = Compare::never;
+  EXPECT_THAT(explain(s), Not(HasSubstr("code path")));
 }
 
 TEST(Explain, CountsEveryDraw) {
