@@ -23,6 +23,7 @@
 #endif
 
 namespace tessera {
+using namespace detail;
 using namespace program;
 namespace {
 
