@@ -63,13 +63,11 @@ const std::vector<RendererOptions>& all_options() {
       for (const int tile_size : {32, 64, 128})
         for (const InstructionSet set : available_instruction_sets()) {
           const int place = threads + tile_size / 32 / 2 + static_cast<int>(set);
-          all.push_back(
-              {.threads = threads,
-               .tile_size = tile_size,
-               .instruction_set = set,
-               .bin_memory = place / 2 % 2 == 0 ? RendererOptions{}.bin_memory : kMinBinMemory,
-               .debug = {.defer_shading = place % 2 == 0,
-                         .task_order = threads % 3 == 0 ? 0u : 17u * static_cast<unsigned>(place)}});
+          RendererOptions options{.threads = threads, .tile_size = tile_size, .instruction_set = set};
+          if (place / 2 % 2 != 0) options.bin_memory = kMinBinMemory;
+          options.debug.defer_shading = place % 2 == 0;
+          if (threads % 3 != 0) options.debug.task_order = 17u * static_cast<unsigned>(place);
+          all.push_back(options);
         }
     return all;
   }();
