@@ -47,7 +47,7 @@ struct BinDraw {
   // For clipping.
   const VertexTransform* transform = nullptr;
   StridedFloats positions;
-  int components = 3;  ///< of a position: 3 or 4
+  int components = 3;  ///< components of a position: 3 or 4
   const float* attributes = nullptr;
   int attribute_count = 0;
   int attribute_stride = 0;  ///< floats from vertex to vertex

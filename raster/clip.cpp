@@ -119,7 +119,7 @@ class UnclippedPolygon {
           std::clamp(static_cast<float>(interpolate(a, b)), std::min(a, b), std::max(a, b));
     }
     // Error bound of the interpolated point: about 2^-50 of the magnitude of the terms of `from`, scaled by
-    // the edge's length over the difference of the end points' plane distances; plus t times the same of
+    // the edge's length over the difference of the end points' plane distances; plus t times the bound of
     // `to`. If that magnitude is below 2^20 w, the error is below 2^-7 of the 1/256 pixel grid in a window of
     // 2^14 pixels.
     double guard = transform_.guard_y;

@@ -31,7 +31,7 @@ PixelRect bounds_of_point(const BinDraw& draw, LinePoint at) {
 // Tiles that a rectangle of pixels touches. By shifts: divisions would dominate the cost of a point.
 struct TileSpan {
   int x0, y0, x1, y1;  // inclusive
-  int columns;         // of the grid
+  int columns;         // columns of the grid
   TileSpan(const TileGrid& grid, const PixelRect& pixels) {
     const int shift = std::countr_zero(static_cast<unsigned>(grid.tile_size));
     x0 = pixels.x0 >> shift, y0 = pixels.y0 >> shift;

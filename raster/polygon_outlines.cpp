@@ -16,8 +16,8 @@ bool set_up(ClippedBoundary& boundary, const BinDraw& draw, std::uint32_t first_
       draw.modes->boundary + first_triangle / draw.modes->triangles * corners;
   vertices.clear();
   window.clear();
-  std::uint8_t outcodes = 0;                          // of any vertex
-  std::uint8_t shared = draw.any_outcode ? 0xff : 0;  // of all vertices
+  std::uint8_t outcodes = 0;                          // outcodes of any vertex
+  std::uint8_t shared = draw.any_outcode ? 0xff : 0;  // outcodes of all vertices
   for (std::size_t i = 0; i < corners; ++i) {
     if (draw.any_outcode) {
       outcodes |= draw.outcodes[polygon[i]];

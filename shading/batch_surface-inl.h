@@ -1,4 +1,4 @@
-// What the points of a batch share, and how attributes of triangles are gathered into it.
+// The surface that the points of a batch share, and how attributes of triangles are gathered into it.
 #if defined(TESSERA_SHADING_BATCH_SURFACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_BATCH_SURFACE_INL_H_
 #undef TESSERA_SHADING_BATCH_SURFACE_INL_H_
@@ -15,18 +15,18 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// What the points of a batch share, one face of one draw: where attributes go, and the steps from there to
-/// colors.
+/// The surface that a batch's points share, one face of one draw: where attributes go, and the steps from
+/// there to colors.
 struct BatchSurface {
   std::uint32_t draw = 0xffffffffu;
   bool back = false;
 
-  int first_attribute = 0, attribute_count = 0;  // of the vertices' records
+  int first_attribute = 0, attribute_count = 0;  // in the vertices' records
   float* target[kMaxAttributes];                 // per attribute: its array in the batch
   bool adjacent = false;                         // these arrays follow each other
   bool clamps_to_range = false;                  // attributes are clamped to the range of the vertices
   bool gathers_coordinates = false;              // texture coordinates are gathered with the attributes
-  TextureCoordinates coordinates;                // of the triangle last gathered
+  TextureCoordinates coordinates;                // the triangle gathered last
 
   bool is_constant = false;                  // colors are the draw's
   bool interpolates_colors = false;          // attributes are colors 0..1 or levels, no indices

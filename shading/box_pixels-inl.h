@@ -88,7 +88,7 @@ struct BoxGroup {
     for (std::uint32_t left = singles; left != 0; left &= left - 1) set_up_single(g, std::countr_zero(left));
   }
   HWY_INLINE bool is_single(int i) const { return (singles >> i & 1) != 0; }
-  /// Which blocks of a box the triangle may cover, of those in the first `across` and `down`.
+  /// Blocks of a box that the triangle may cover, among those in the first `across` and `down`.
   HWY_INLINE std::uint32_t touched_blocks(int i, const Int (&at)[3], int across, int down) const {
     Int highest = hn::Zero(kInt);
     for (int k = 0; k < 3; ++k) highest = hn::Or(highest, hn::Add(at[k], splat(to_highest[k][i])));
@@ -124,7 +124,7 @@ template <class Depth, ColorWrite kColorWrite>
 struct BoxPixels {
   TileContext& context;
   const BoxGroup& boxes;
-  const int i;  // of the group
+  const int i;  // triangle of the group
   Depth depth;
   WeightLanes weights;
   GouraudColorEval color;

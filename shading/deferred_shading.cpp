@@ -25,7 +25,7 @@ static_assert(kBatchBlocks * kBlockPixels == kBatchPoints);
 /// triangle covers hold any bits: nothing that is stored depends on them.
 struct PixelBatch : BatchSurface {
   int blocks = 0;
-  int index[kBatchBlocks];  // of the block's first pixel in the tile
+  int index[kBatchBlocks];  // the block's first pixel in the tile
   int bx[kBatchBlocks], by[kBatchBlocks];
   std::uint32_t covered[kBatchBlocks];  // 16 bits
   bool one_surface = false;             // all collected triangles are of this surface

@@ -35,7 +35,7 @@ static_assert(kMaxSamples == 8);
 /// The visible pixels of one triangle in one chunk. Their points are adjacent in the batch.
 struct SampledSpan {
   int point;              // first point in the batch
-  int index;              // of the chunk's first pixel in the tile
+  int index;              // the chunk's first pixel in the tile
   std::uint32_t covered;  // one bit per lane
   SampleMasks visible;    // samples of these pixels
 };

@@ -188,7 +188,7 @@ struct PointShapes {
 struct LineShapes {
   const TileContext& context;
   float width;
-  LineSteps steps;  // of the group; with one sample
+  LineSteps steps;  // steps of the group; with one sample
 
   HWY_INLINE LineShapes(const TileContext& tile_context, const TileDraw& draw)
       : context(tile_context), width(draw.size) {

@@ -33,16 +33,15 @@ struct FragmentTriangle {
   const int face;  // 0 front, 1 back
   const bool has_depth;
   const bool evaluates_colors;
-  StencilTestConstants stencil{};     // of this face, if there is a test
-  std::int32_t id = 0;                // ColorWrite::deferred: number of the triangle
-  std::uint32_t packed_color = 0;     // ColorWrite::constant
-  const float* flat_color = nullptr;  // r g b a, or an index; null: not flat
-  const float* block_colors =
-      nullptr;                       // of a block's pixels: all r, then all g, b and a; null: the triangle's
-  bool visible = false;              // a fragment has passed the tests
-  const DrawTexture* texture;        // null: none
-  TextureCoordinates coordinates{};  // of a texture with levels
-  BatchSurface surface;              // if evaluates_colors
+  StencilTestConstants stencil{};       // constants of this face, if there is a test
+  std::int32_t id = 0;                  // ColorWrite::deferred: number of the triangle
+  std::uint32_t packed_color = 0;       // ColorWrite::constant
+  const float* flat_color = nullptr;    // r g b a, or an index; null: not flat
+  const float* block_colors = nullptr;  // colors of a block: all r, then all g, b and a; null: the triangle's
+  bool visible = false;                 // a fragment has passed the tests
+  const DrawTexture* texture;           // null: none
+  TextureCoordinates coordinates{};     // for a texture with levels
+  BatchSurface surface;                 // if evaluates_colors
 
   HWY_INLINE FragmentTriangle(TileContext& tile_context, const ShadedTriangle& shaded)
       : context(tile_context),

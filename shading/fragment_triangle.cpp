@@ -1,4 +1,4 @@
-// What a block of fragments goes through [GL 2.1, 4.1]: alpha test, stencil test, depth test; then its colors
+// Operations on a block of fragments [GL 2.1, 4.1]: alpha test, stencil test, depth test; then its colors
 // are evaluated, blended, dithered, combined by a logic operation and stored under the write mask.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/fragment_triangle.cpp"

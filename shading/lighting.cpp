@@ -62,7 +62,7 @@ struct alignas(64) Incidence {
   float to_light[3][kBatchPoints];  // unit
   float n_dot_l[kBatchPoints];      // 0 if the light is behind the surface or does not reach the point
   float factor[kBatchPoints];       // att, or 0 if the light does not reach the point; then att * spot
-  float cosine[kBatchPoints];       // of a spot, to its axis
+  float cosine[kBatchPoints];       // angle to a spot's axis
   float highlight[kBatchPoints];    // S.n, its square or R.E
 
   HWY_INLINE Vector direction(int point) const {

@@ -67,7 +67,7 @@ constexpr bool is_black(const Rgb& c) { return c[0] == 0 && c[1] == 0 && c[2] ==
 struct EyeLight {
   Rgb ambient{0, 0, 0}, diffuse{1, 1, 1}, specular{1, 1, 1};
   bool directional = true;
-  std::array<float, 3> position{0, 0, 1};         ///< of a point; the unit vector towards a directional light
+  std::array<float, 3> position{0, 0, 1};         ///< a point, or the unit vector towards a directional light
   std::array<float, 3> spot_direction{0, 0, -1};  ///< unit
   float spot_exponent = 0;
   float spot_cutoff = 180;                    ///< degrees
@@ -127,8 +127,8 @@ struct LightTerm {
   /// Cones below kNarrowCone: largest squared distance of -L and the cone's direction; 0: spot_cosine
   /// decides.
   float spot_chord_squared = 0;
-  Power spot_power;       ///< of the cosine to the axis
-  Power highlight_power;  ///< of S.n, its square or R.E
+  Power spot_power;       ///< power of the cosine to the axis
+  Power highlight_power;  ///< power of S.n, its square or R.E
   /// Bases at or below this value contribute no highlight: base^shininess * factor < 2^-32, or the base is
   /// below 2^-126. NaN if shininess is 0: the comparison is then never true, and every base contributes 1.
   float highlight_floor = 0;

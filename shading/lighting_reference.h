@@ -25,7 +25,7 @@ inline Rgb light_point_reference(const LightingProgram& program, const PointRefe
   };
   const auto scaled = [](const Vec& v, float s) { return Vec{v[0] * s, v[1] * s, v[2] * s}; };
   const auto inverse_length = [](float squared) { return squared > 0 ? 1.0f / std::sqrt(squared) : 0.0f; };
-  const auto squared_distance = [&](const Vec& a, const Vec& b, float s) {  // of a and s b
+  const auto squared_distance = [&](const Vec& a, const Vec& b, float s) {  // between a and s b
     const Vec apart{std::fma(-b[0], s, a[0]), std::fma(-b[1], s, a[1]), std::fma(-b[2], s, a[2])};
     return dot(apart, apart);
   };

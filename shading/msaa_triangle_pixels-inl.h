@@ -86,7 +86,7 @@ struct MsaaTrianglePixels {
                                  context.tile_y);
   }
 
-  // That a block is full holds for the dominating edges, not for every sample.
+  // A full block is full for the dominating edges, not for every sample.
   template <bool>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
     if (kUsesHiz<Depth, kDepthTest> && hiz_culls(context, min_depth_key, bx, by)) return;

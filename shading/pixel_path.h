@@ -26,7 +26,7 @@ constexpr bool is_interpolated(ColorWrite write) {
   return write == ColorWrite::interpolated || write == ColorWrite::blended;
 }
 
-/// Which code tests depth and stencil.
+/// Code that tests depth and stencil.
 enum class DepthTestPath : std::uint8_t {
   less_write,  ///< Compare::less with depth writes and without operations, which most draws use
   generic      ///< any test, with or without writes; triangles may have a stencil test

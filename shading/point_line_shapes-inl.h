@@ -112,8 +112,8 @@ struct PointShape {
 
 struct LineShape {
   const TileContext& context;
-  const LineSteps& steps;  // of the group
-  int i;                   // of the line
+  const LineSteps& steps;  // steps of the group
+  int i;                   // number of the line
   float width;
 
   /// Calls pixels(x, y, inside) for vectors of covered pixels. @pre one sample

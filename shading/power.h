@@ -5,7 +5,7 @@
 
 namespace tessera::detail {
 
-inline constexpr std::int32_t kSqrtHalfBits = 0x3f3504f3;  ///< of sqrt(1/2) as a float
+inline constexpr std::int32_t kSqrtHalfBits = 0x3f3504f3;  ///< bits of sqrt(1/2) as a float
 inline constexpr float kRoundingBias = 0x1.8p23f;
 inline constexpr float kMinNormal = 0x1p-126f;
 /// Powers are clamped to 2^96.

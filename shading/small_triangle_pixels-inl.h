@@ -26,7 +26,7 @@ struct SmallTrianglePixels {
   static constexpr int kCapacity = kGroupSize * kBlockPixels;
   int count = 0;
   alignas(64) std::int32_t place[kCapacity + kLanes];   // triangle << 16 | y << 8 | x, tile-relative
-  alignas(64) std::int32_t index[kCapacity + kLanes];   // of the pixel in the tile
+  alignas(64) std::int32_t index[kCapacity + kLanes];   // the pixel in the tile
   alignas(64) std::int32_t key[kCapacity + kLanes];     // depth key, if kHasKeys
   alignas(64) std::int32_t packed[kCapacity + kLanes];  // color
   std::uint32_t triangles = 0;                          // triangles with pixels, one bit each

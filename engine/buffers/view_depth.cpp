@@ -20,7 +20,7 @@ ViewDepth::ViewDepth(const Camera& camera, float background, const char* functio
                                                  rows + ", they must " + needed);
   };
   if (m[8] != 0 || m[9] != 0 || m[12] != 0 || m[13] != 0)
-    refuse("have 0 for x and y, or a depth has no distance of its own");
+    refuse("have 0 for x and y, or distinct depths have one distance");
   // Divide by the largest coefficient, so that products are finite; quotients do not change.
   const double largest = std::max({std::abs(m[10]), std::abs(m[11]), std::abs(m[14]), std::abs(m[15])});
   const int exponent = largest > 0 ? -std::ilogb(largest) : 0;

@@ -12,8 +12,8 @@ namespace tessera::bench {
 /// dispatch of all of them, gets its minimum over several frames. (Dispatch includes recording the trace.)
 TracedFrame measure_task_costs(const WorkloadEntry& entry, const WorkloadSetup& setup, int workers);
 
-/// The same for each worker count, with the serial time of the frame added: the minimum over several untraced
-/// frames, because recording tasks would take longer than much of it.
+/// Frame time for each worker count, with the serial time of the frame added: the minimum over several
+/// untraced frames, because recording tasks would take longer than much of it.
 /// - With several workers, the serial time is measured while the tasks run on a core other than the caller's,
 ///   if there are two cores that threads can be bound to. Meanwhile the caller reads as many bytes as one
 ///   worker's share of the frame's traffic.

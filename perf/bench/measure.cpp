@@ -26,7 +26,7 @@ struct Runner {
   std::optional<BandwidthKernel> roofline{};
   double Row::*rate = nullptr;  // result of the roofline
   std::size_t row = 0;
-  FrameStats stats{};  // of the last frame
+  FrameStats stats{};  // statistics of the last frame
   std::vector<double> times{};
   HardwareCounters::Counts counted{};
 

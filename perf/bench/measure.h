@@ -42,7 +42,7 @@ struct Row {
   double roofline = 0;                               ///< 10^9 bytes/s; 0: none, or not measured
   double l1_stores = 0;  ///< L1 store rate in 10^9 bytes/s, for Roofline::tile_stores only
   std::optional<BaselineRatio> to_baseline{};
-  std::string fault;        ///< of the picture, or the error that stopped the row; empty: none
+  std::string fault;        ///< fault of the picture, or the error that stopped the row; empty: none
   bool is_aborted = false;  ///< whether an error stopped the row (`fault` is not about the picture)
 };
 

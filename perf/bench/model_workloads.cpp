@@ -14,7 +14,7 @@ namespace {
 
 struct ModelFile {
   std::string path;
-  std::string package;           ///< of Debian
+  std::string package;           ///< Debian's name
   std::optional<Model> model{};  ///< set by WorkloadEntry::prepare
 };
 

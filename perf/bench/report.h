@@ -40,7 +40,7 @@ struct Report {
   std::optional<RivalComparisons> rival_comparisons{};
   std::vector<Scaling> scaling{};
   std::optional<CoreModel> core_model{};  ///< used for the predictions in `scaling`
-  std::optional<Ratio> noise{};           ///< of a workload to itself; std::nullopt: not measured
+  std::optional<Ratio> noise{};           ///< ratio of a workload to itself; std::nullopt: not measured
   std::string noise_of;                   ///< name of that workload
 };
 

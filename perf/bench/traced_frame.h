@@ -35,7 +35,7 @@ class TracedWorkload {
 
  private:
   std::string name_;
-  std::vector<FrameTask> tasks_{};  // of the last frame
+  std::vector<FrameTask> tasks_{};  // tasks of the last frame
   std::unique_ptr<Workload> workload_{};
 };
 

@@ -1,4 +1,4 @@
-// What `tessera bench` measures: workloads that draw the same frame repeatedly and can check its picture.
+// Workloads of `tessera bench`: they draw the same frame repeatedly and can check its picture.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ enum class Roofline : std::uint8_t {
 
 /// Amount of work in one frame, for rates.
 struct FrameWork {
-  std::uint64_t pixels = 0;     ///< of the frame buffer
+  std::uint64_t pixels = 0;     ///< pixels of the frame buffer
   std::uint64_t triangles = 0;  ///< triangles, lines or points
   std::uint64_t vertices = 0;
   std::uint64_t fragments = 0;           ///< shaded, blended or tested, as the workload defines

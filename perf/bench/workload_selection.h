@@ -1,4 +1,4 @@
-// Which workloads of the command line are measured.
+// The workloads that the command line selects.
 #pragma once
 
 #include <string>

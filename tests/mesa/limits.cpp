@@ -30,10 +30,10 @@ Reason format_limit(const FrameBufferFormat& format, const Buffers& buffers) {
     return "what is read back would have to be stored in other than 24 bits";
   if (buffers.stencil && format.stencil_bits != 8) return "a stencil of fewer than 8 bits";
   if (buffers.stencil && (format.depth == DepthFormat::kUnorm16 || format.depth == DepthFormat::kUnorm32))
-    return "a stencil beside 16 or 32 bits of depth";
+    return "a stencil with 16 or 32 bits of depth";
   if (buffers.color == ColorStore::kWindow && format.depth != DepthFormat::kNone &&
       format.depth != DepthFormat::kUnorm24)
-    return "an accumulation buffer beside other than 24 bits of depth";
+    return "an accumulation buffer with other than 24 bits of depth";
   return std::nullopt;
 }
 
@@ -75,7 +75,7 @@ Reason draw_limit(const Draw& draw, const reference::Scene& scene, const FrameSt
     return "Mesa's float depth is too coarse for a unit of 32 bits";
   const auto [near, far] = draw.depth_range;
   if (draw.depth && near == far && meets_a_clear(near, frame.cleared_depths))
-    return "a polygon at exactly a cleared depth: Mesa's float depth may lie a step beside it";
+    return "a polygon at exactly a cleared depth: Mesa's float depth may lie a step away";
   if (const Reason reason = index_limit(draw, scene)) return reason;
   if (const Reason reason = texture_limit(draw, scene)) return reason;
   return primitive_limit(draw, scene, frame.camera);
@@ -104,7 +104,7 @@ struct CommandLimit {
 
   Reason raster_limit(const reference::FragmentState& state, double depth) const {
     if (state.depth && meets_a_clear(depth, frame.cleared_depths))
-      return "pixels at exactly a cleared depth: Mesa's float depth may lie a step beside it";
+      return "pixels at exactly a cleared depth: Mesa's float depth may lie a step away";
     return std::nullopt;
   }
 };

@@ -27,7 +27,7 @@ using reference::Vec4;
 
 using Reason = std::optional<std::string>;
 
-constexpr double kLargestSize = 255;  // of Mesa's points and lines
+constexpr double kLargestSize = 255;  // largest point and line of Mesa
 
 bool is_quads(PrimitiveType type) {
   return type == PrimitiveType::kQuads || type == PrimitiveType::kQuadStrip;

@@ -14,7 +14,7 @@ struct Tally {
   long double cracks = 0, doubles = 0, strays = 0;
   int meshes = 0;
   int overlapping = 0;
-  // Of the expected pixels.
+  // The expected pixels.
   std::size_t pixels = 0;
   std::size_t once = 0;
   std::size_t never = 0;

@@ -195,7 +195,7 @@ TEST(Interpolation, TextureCoordinatesSampleNoTexelOutsideTheRange) {
     for (const int octaves : {0, 20})
       expect_figure(
           std::string("nearest texels") + (octaves == 0 ? "" : ", w apart by 10^6") +
-              (borders ? ", of vertices on their borders" : "") + ", beside the range",
+              (borders ? ", of vertices on their borders" : "") + ", next to the range",
           0, "texels", [&](const MakeRenderer& make, bool is_tessera) {
             const auto renderer = make(format);
             Rng rng(90);

@@ -80,7 +80,7 @@ struct PowerErrors {
       if (exact >= 0x1p-8L) visible.add(results[i], exact);
     }
   }
-  // p = y log2 x has the error of the logarithm, 2.09 u of p (u = 2^-24), and half an ulp of its own: 64 u
+  // p = y log2 x has the error of the logarithm, 2.09 u of p (u = 2^-24), and another half ulp: 64 u
   // for |p| between 64 and 128, 4 u between 4 and 8. 2^p is off by ln 2 times that plus its own 1.2 ulp, at
   // most 2.4 u: (2.09 * 126 + 64) ln 2 + 2.4 = 229.4 and (2.09 * 8 + 4) ln 2 + 2.4 = 16.8. An ulp is between
   // u and 2 u; where it is u, the error of 2^p counts 1.2: 228.2 and 15.6.

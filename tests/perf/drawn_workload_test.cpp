@@ -1,4 +1,4 @@
-// Checks that workloads make of their own pictures: frames that draw too little are faults.
+// Checks that workloads apply to their pictures: frames that draw too little are faults.
 #include "perf/bench/drawn_workload.h"
 
 #include <gtest/gtest.h>

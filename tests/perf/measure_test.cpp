@@ -229,7 +229,7 @@ TEST(BenchMeasure, ReportsExceptionsAsFaultOfTheRow) {
     EXPECT_EQ(rows[0].frames, 0u) << frame;
     EXPECT_EQ(log.alive, 0) << frame;
   }
-  // Of several candidates, the one whose turn it was has the fault.
+  // The candidate whose turn it was has the fault.
   for (const int frame : {0, 2, 6}) {
     Log log;
     const std::vector<Row> rows = measure(

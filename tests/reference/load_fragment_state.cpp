@@ -169,7 +169,7 @@ void parse_fragment_state(ObjectReader& reader, const FrameBufferFormat& format,
   if (const Value op = reader.find("logic_op")) {
     state.logic_op = choice(op, kLogicOps);
     if (state.blend && state.logic_op != LogicOp::kCopy)
-      fail(op.pointer, "\"copy\" beside \"blend\": blending and a logic operation exclude each other");
+      fail(op.pointer, "\"copy\" together with \"blend\": blending and a logic operation exclude each other");
   }
   if (const Value mask = reader.find("color_mask")) state.color_mask = parse_color_mask(mask, format);
   if (const Value planes = reader.find("plane_mask"))

@@ -16,7 +16,7 @@ namespace tessera::reference {
 class SampleBuffers {
  public:
   struct Sample {
-    double depth = 1;  ///< of the last stored fragment, before rounding to a level
+    double depth = 1;  ///< depth of the last stored fragment, before rounding to a level
     std::uint32_t depth_level = 0;
     std::uint32_t stencil = 0;
   };

@@ -80,7 +80,7 @@ std::vector<EndlessLight> endless_lights() {
     return [constant](EndlessLight& e) { e.light.attenuation = {constant, 0, 0}; };
   };
   add("the inverse of a small denominator", {0, 0, 1}, attenuated(1e-42f));
-  add("the same of the largest colour", {0, 0, 1}, [&](EndlessLight& e) {
+  add("the inverse of a small denominator, with the largest colour", {0, 0, 1}, [&](EndlessLight& e) {
     e.light.attenuation = {1e-42f, 0, 0}, e.light.diffuse = {0, kMost, 0};
   });
   add("the same on long normals", {0, 0, 100}, attenuated(1e-42f));

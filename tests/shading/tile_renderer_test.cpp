@@ -144,7 +144,8 @@ TEST(TileRenderer, TrianglesHaveTheColorsOfTheirVisibleSide) {
   TileHarness stage(kTile, kTile, kTile);
   for (int round = 0; round < (long_tests() ? 1000 : 60); ++round) {
     const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 6, DepthFormat::none, 0.5, 255.5);
-    std::vector<Facing> facing(mesh.vertices.size() / 3);  // of the polygons that the triangles were cut from
+    std::vector<Facing> facing(mesh.vertices.size() /
+                               3);  // facing of the polygons that the triangles were cut from
     for (Facing& side : facing) side = source.between(0, 1) == 0 ? Facing::front : Facing::back;
     const bool of_polygons = round % 3 == 0, front_is_clockwise = round % 2 == 0, deferred = round % 4 < 2;
     const auto shows_back = [&](std::uint32_t id) {

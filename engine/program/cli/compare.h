@@ -10,7 +10,7 @@ namespace tessera::program::cli {
 struct Difference {
   int largest = 0;         ///< largest difference of a component, in levels of 255
   std::size_t pixels = 0;  ///< pixels with a component that differs by more than the threshold
-  double share = 0;        ///< the same as a fraction of all pixels
+  double share = 0;        ///< fraction of all pixels
 };
 
 /// Compares red, green and blue.

@@ -10,7 +10,7 @@ namespace tessera::program::cli {
 struct OutputRequest {
   /// A file, with {frame} in its name for animations; "-": standard output, as PPM; "term": the terminal.
   std::string path;
-  int compression = kDefaultCompression;  ///< of PNG, 0 .. 9
+  int compression = kDefaultCompression;  ///< PNG level, 0 .. 9
 };
 
 /// Returns whether `path` is the standard output or the terminal.

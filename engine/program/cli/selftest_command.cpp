@@ -24,7 +24,7 @@ struct SceneReport {
   std::string description;
   Scene scene;
   PictureHash expected;
-  std::optional<Fingerprint> found;  ///< of the first configuration
+  std::optional<Fingerprint> found;  ///< result of the first configuration
   std::size_t failed_configurations = 0;
   std::string first_failure;
 };

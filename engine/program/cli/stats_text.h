@@ -13,7 +13,7 @@ namespace tessera::program::cli {
 enum class StatsFormat { none, text, json };
 
 struct RunStats {
-  FrameStats frame;  ///< of the last frame
+  FrameStats frame;  ///< statistics of the last frame
   RendererOptions options;
   double load_ms = 0;
   double write_ms = 0;

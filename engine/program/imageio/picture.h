@@ -17,7 +17,7 @@ struct Picture {
   Picture(int width, int height);
 
   int width, height;
-  int channels = 4;  ///< of the file: 1 is luminance, 2 luminance and alpha, 3 RGB, 4 RGBA
+  int channels = 4;  ///< channels in the file: 1 is luminance, 2 luminance and alpha, 3 RGB, 4 RGBA
   std::vector<std::uint8_t> rgba;
 
   /// Target for Renderer::finish() and FrameBuffer::read_color().

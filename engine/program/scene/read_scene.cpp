@@ -105,7 +105,7 @@ LightModel read_light_model(const Value& value) {
   return model;
 }
 
-constexpr double kMaxExponent = 16384;  // of shininess and spots
+constexpr double kMaxExponent = 16384;  // largest shininess and spot exponent
 
 Light read_light(const Value& value) {
   const Object object(value, {"ambient", "diffuse", "specular", "position", "spot_direction", "spot_exponent",

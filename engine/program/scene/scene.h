@@ -65,7 +65,7 @@ struct Scene {
   std::string name;  ///< the file, for messages
   std::string title;
   FrameBufferFormat framebuffer;
-  std::string palette_name;  ///< of a built-in palette; empty: determined by bits, or entries of the scene
+  std::string palette_name;  ///< a built-in palette; empty: determined by bits, or entries of the scene
   SceneCamera camera;
   LightModel light_model;
   LightList lights{Light{}};
@@ -106,7 +106,7 @@ Scene builtin_scene();
 /// Replacements for values of a scene; empty: the scene's own.
 struct SceneOverrides {
   std::optional<int> width = {}, height = {};
-  std::optional<Shading> shading = {};  ///< of every draw
+  std::optional<Shading> shading = {};  ///< shading of every draw
   std::optional<int> color_bits = {};
   std::optional<std::string> palette = {};  ///< name; makes the colour buffer a colour-index buffer
   std::optional<SceneCamera> camera = {};   ///< for the whole frame; keeps the scene's `reversed`

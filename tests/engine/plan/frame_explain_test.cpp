@@ -263,7 +263,7 @@ TEST(Explain, NamesTheCodePathOfEachPolygonMode) {
   EXPECT_THAT(explain(s),
               HasSubstr("  code path: triangles, colour constant, depth unorm24, less and write\n"));
   s.state.alpha_test = AlphaTest{};
-  EXPECT_THAT(explain(s), HasSubstr("  code path: fragments of triangles, colour evaluated, depth unorm24\n"));
+  EXPECT_THAT(explain(s), HasSubstr("code path: fragments of triangles, colour evaluated, depth unorm24\n"));
   s.state = {.lighting = false, .back_mode = PolygonMode::line};
   EXPECT_THAT(explain(s), AllOf(HasSubstr("  code path: triangles, colour constant, depth unorm24"),
                                 HasSubstr("  code path: fragments of lines, colour")));

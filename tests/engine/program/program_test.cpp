@@ -482,10 +482,12 @@ TEST_F(Program, RejectsHostileModelsWithinLimits) {
   for (int i = 0; i < 30; ++i)
     nodes += R"(, {"children": [)" + std::to_string(i) + ", " + std::to_string(i) + "]}";
   write("bomb.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [30]}], "nodes": [)" +
-                         nodes + R"(], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+                         nodes +
+                         R"(], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
     "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
     "max": [0, 0, 0]}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
-    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)"
+                         R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
   const struct {
     const char* name;
     const char* fragment;
