@@ -14,7 +14,8 @@ void at_command(const Scene& scene, const SceneCommand& command, const Run& run)
   try {
     run();
   } catch (const Error& error) {
-    throw Error(scene.name + ": " + (command.pointer.empty() ? "" : command.pointer + ": ") + error.what());
+    throw Error(error.code(),
+                scene.name + ": " + (command.pointer.empty() ? "" : command.pointer + ": ") + error.what());
   }
 }
 

@@ -111,7 +111,10 @@ std::vector<std::uint8_t> read_back(const FrameBufferFormat& format,
 }
 
 void expect_same_bits_always(const FrameBufferFormat& format, const std::function<void(Frame&)>& record) {
-  Renderer& plain = renderer({1, 64, InstructionSet::scalar, false});
+  Renderer& plain = renderer({.threads = 1,
+                              .tile_size = 64,
+                              .instruction_set = InstructionSet::scalar,
+                              .debug = {.defer_shading = false}});
   const Fingerprint expected = stored(format, record, plain);
   const std::vector<std::uint8_t> shown = read_back(format, record, plain);
   for (const RendererOptions& options : all_options()) {
@@ -146,7 +149,7 @@ TEST(Determinism, RandomTrianglesWithClippingAndOverdrawHaveTheSameBits) {
   FrameBuffer buffer(random.format);
   Frame frame(buffer);
   random.record(frame);
-  const FrameStats stats = renderer({1, 64, InstructionSet::scalar, true}).finish(frame);
+  const FrameStats stats = renderer({1, 64, InstructionSet::scalar}).finish(frame);
   EXPECT_GT(stats.clipped, 100u);
   EXPECT_GT(stats.shaded_pixels, 4u * 330 * 210);
 }
@@ -188,12 +191,10 @@ TEST(Determinism, RandomTrianglesHaveTheSameBitsInGrey) {
 TEST(Determinism, ManySmallTrianglesHaveTheSameBitsOnEightThreads) {
   const RandomFrame random(random_format(ColorMode::rgb, 24, DepthFormat::none), 20000);
   const auto record = [&](Frame& frame) { random.record(frame); };
-  const Fingerprint expected =
-      stored(random.format, record, renderer({1, 128, InstructionSet::automatic, true}));
+  const Fingerprint expected = stored(random.format, record, renderer({1, 128, InstructionSet::automatic}));
   for (int round = 0; round < 5; ++round)
     for (const int threads : {2, 3, 8})
-      EXPECT_EQ(stored(random.format, record, renderer({threads, 32, InstructionSet::automatic, true})),
-                expected);
+      EXPECT_EQ(stored(random.format, record, renderer({threads, 32, InstructionSet::automatic})), expected);
 }
 
 // `colors` and `stencils` are minimum numbers of different stored values: a frame of one colour would prove
@@ -206,7 +207,7 @@ void expect_same_bits_of_operations(const FrameBufferFormat& format, std::size_t
   FrameBuffer buffer(format);
   Frame frame(buffer);
   record(frame);
-  renderer({1, 64, InstructionSet::scalar, true}).finish(frame);
+  renderer({1, 64, InstructionSet::scalar}).finish(frame);
   const std::vector<std::uint32_t> words = packed_colors(buffer);
   const std::vector<std::uint32_t> levels = stored_depths(buffer);
   const std::vector<std::uint8_t> values = stencil_values(buffer);
