@@ -5,8 +5,7 @@
 
 #include "engine/program/scene/json_value.h"
 
-namespace tessera::json {
-using namespace program;
+namespace tessera::program::json {
 namespace {
 
 TEST(JsonParse, ListsOfObjectsParseInLinearTime) {
@@ -42,4 +41,4 @@ TEST(JsonParse, KeepsTypesAndOrder) {
 }
 
 }  // namespace
-}  // namespace tessera::json
+}  // namespace tessera::program::json
