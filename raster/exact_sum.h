@@ -7,7 +7,7 @@
 namespace tessera::detail {
 
 /// An exact sum as an expansion: non-overlapping doubles, the smallest first.
-/// - Exact while no product is below 2^-960 in magnitude. NaN after any overflow.
+/// - Exact if every nonzero product is at least 2^-960 in magnitude. NaN after any overflow.
 ///
 /// Source: J. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates,
 /// 1997 (grow-expansion, compress).

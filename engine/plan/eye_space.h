@@ -11,9 +11,8 @@ namespace tessera::detail {
 
 /// A light in eye space.
 /// - Distances are limited so that the squared distance to points within 2^62 of the eye is a finite float.
-/// - The view may be a projection: the position is xyz/w after it (w = 0 counts as 1). Directional lights
-/// stay
-///   directional.
+/// - The view may be a projection: positions are divided by w after it (w = 0 counts as 1). Directional
+///   lights stay directional.
 EyeLight eye_light(const Light& light, const glm::dmat4& view);
 
 /// Normals are transformed by the inverse transpose; `lengths` selects their lengths.

@@ -24,9 +24,8 @@ struct TextureNeeds {
   bool alpha = false;  ///< alpha is tested, blended with, or stored
 };
 
-/// @param notes  receives the use of the texels, or why they are skipped; the caller notes the use of a
-/// single
-///               colour
+/// @param notes  receives how texels are used, or why they are skipped; the caller notes textures of a
+///               single colour
 TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, const EffectNotes& notes);
 
 }  // namespace tessera::detail

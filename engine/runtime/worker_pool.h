@@ -40,10 +40,8 @@ class WorkerPool {
   }
   /// Calls task(i, worker) once for each i in 0 .. count-1 and returns when all are done.
   /// - `worker` is below workers_for(count); concurrent tasks of one call have distinct workers.
-  /// - Each worker runs the share of its number, lowest task first, then steals from the following shares. A
-  /// thread
-  ///   that is the same worker again finds its data in its caches; callers may put long tasks first in each
-  ///   share.
+  /// - Worker k starts with share k, lowest task first, then steals from the following shares. Caches stay
+  ///   warm if the same thread is worker k each time; callers may put long tasks first in each share.
   /// - Tasks run in FloatingPointMode.
   /// - An exception of a task is rethrown here after the running tasks have ended; the rest do not start.
   /// - One thread at a time. Calls from tasks run serially on their thread, as worker 0.

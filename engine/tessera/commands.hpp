@@ -60,8 +60,8 @@ struct Accum {
 /// Per-pixel data that finish() writes next to the picture, for picking and for tools.
 /// - Rows from the top, width * height pixels. Borrowed until the frame is finished or reset.
 /// - Cost: one more pass over the tiles per non-empty span.
-/// - MSAA buffers: what is visible at the pixel's centre; points and lines as with one sample.
-/// - Blended draws: the last one that passed the tests. Accumulation changes nothing.
+/// - MSAA buffers: evaluated at pixel centres; points and lines as with one sample.
+/// - Blended draws: the last one that passed the tests. Accumulation is ignored.
 struct Capture {
   static constexpr std::uint32_t kNothing = 0xffffffffu;  ///< no draw gave this pixel its colour
 

@@ -17,13 +17,12 @@ class TESSERA_API Executor {
 
   /// Calls work(context, k) once for each k in 0 .. count-1, in any order, concurrently or not, on any
   /// threads; returns after all calls have returned.
-  /// - count <= workers(). `work` throws nothing. Exceptions of run() leave finish(), or the draw that the
-  ///   renderer helps with.
+  /// - count <= workers(). `work` throws nothing. An exception of run() propagates from finish(), or from
+  ///   Frame::draw if the frame has a helper.
   /// - Frames are faster if the same thread runs the same k each time: its data is in that thread's caches.
-  /// - One renderer calls it once at a time, and never from inside `work`.
-  /// - Several renderers may call it concurrently if they are used by several threads, or from inside `work`
-  /// if
-  ///   a progress callback of one renderer uses another.
+  /// - One renderer makes one call at a time, and never from inside `work`.
+  /// - Several renderers may call it concurrently: from several threads, or from inside `work` if a progress
+  ///   callback of one renderer uses another.
   virtual void run(int count, void (*work)(void* context, int worker), void* context) = 0;
 };
 

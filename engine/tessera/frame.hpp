@@ -35,10 +35,10 @@ class TESSERA_API Frame {
  public:
   /// @throws Error  if the frame buffer was moved from, or out of memory
   explicit Frame(FrameBuffer& target);
-  /// Validates the indices of large meshes (65,536 indices and more) with the workers of `helper`; the
-  /// calling thread alone validates about 5e9 per second.
-  /// - draw() then uses the helper as finish() does: one thread at a time. Within the helper's own progress
-  ///   callback the calling thread validates alone.
+  /// Validates the indices of large meshes (65,536 indices and more) with the workers of `helper`. A single
+  /// thread validates about 5e9 indices per second.
+  /// - draw() and the helper's finish() must not run concurrently. Within the helper's own progress callback,
+  ///   validation is single-threaded.
   /// - The helper must outlive the frame. It may be moved, and must not be assigned to.
   /// - Any renderer may finish the frame.
   Frame(FrameBuffer& target, Renderer& helper);
@@ -61,9 +61,8 @@ class TESSERA_API Frame {
   /// @throws Error  for values out of range, and without an accumulation buffer
   void accumulate(const Accum& accum);
   /// Cost: validates every index; the rest of the work is the renderer's.
-  /// @throws Error  for arrays that do not fit together, values or indices out of range, a texture that was
-  /// moved
-  ///                from, or a shadow that does not exist
+  /// @throws Error  for arrays that do not fit together, values or indices out of range, a moved-from
+  ///                texture, or a planar shadow that does not exist
   void draw(const Mesh& mesh, const DrawState& state = {});
   /// Camera and viewport do not apply; pixels outside the frame buffer are dropped.
   /// @throws Error  for null pointers, and for sizes or values out of range

@@ -75,7 +75,8 @@ struct ImageTarget {
 
 /// A stack of bitplanes, one bit per pixel and plane.
 /// - New buffers hold colour 0, depth 1, stencil 0, accumulation 0.
-/// - Memory of a buffer is allocated when a frame first stores anything but a clear in it.
+/// - Memory of a buffer is allocated when a frame first stores drawn content in it; a clear alone allocates
+///   nothing.
 /// - A frame buffer that was moved from may only be assigned to or destroyed.
 class TESSERA_API FrameBuffer {
  public:
@@ -84,7 +85,7 @@ class TESSERA_API FrameBuffer {
   /// Keeps the planes in the caller's memory, which must outlive the frame buffer.
   /// - Size: memory_bytes(format). Alignment: 64 bytes.
   /// - Order: planes of colour, depth, stencil, accumulation, each laid out as plane() returns it.
-  /// - The memory is up to date for buffers that the last frame kept.
+  /// - After finish() the memory holds the buffers that the frame kept; other buffers are unspecified.
   FrameBuffer(FrameBufferFormat format, std::span<std::byte> memory);
   static std::size_t memory_bytes(const FrameBufferFormat& format);
   ~FrameBuffer();
@@ -122,7 +123,7 @@ class TESSERA_API FrameBuffer {
   void read_depth(std::span<float> depth) const;
   /// Stored levels of unorm formats; the bits of the float for float32.
   void read_depth_words(std::span<std::uint32_t> words) const;
-  /// Distances from the eye plane along the view direction, in units of the camera (metres).
+  /// Distances from the eye plane along the view direction, in the camera's units.
   /// - Valid for draws with this projection and the depth range 0 to 1. The camera's view is ignored.
   /// - `background`, any float, is written where the depth is that of the far end.
   /// @throws Error  also if the projection is not finite, or does not map depth to one distance

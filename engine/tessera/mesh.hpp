@@ -13,7 +13,7 @@
 
 namespace tessera {
 
-/// Ranges that outlive the conversion to a span: no temporaries that own their elements.
+/// Ranges that convert to a span without dangling: lvalues and borrowed ranges.
 template <class Range, class Element>
 concept BorrowableRange = std::convertible_to<Range, std::span<const Element>> &&
     (std::is_lvalue_reference_v<Range> || std::ranges::enable_borrowed_range<std::remove_cvref_t<Range>>);
@@ -85,7 +85,7 @@ struct IndexArray {
 
 /// Primitives and their vertices.
 /// - Borrowed: the arrays must stay unchanged until the frame is finished or reset.
-/// - Arrays other than positions may be empty; else they hold one entry per vertex.
+/// - Attribute arrays may be empty; else they hold one entry per vertex. `indices` may have any length.
 /// - A vertex with a NaN or an infinity in an array that the draw uses drops its primitives.
 struct Mesh {
   Primitive primitive = Primitive::triangles;

@@ -9,10 +9,8 @@ namespace tessera {
 
 /// Assembly of vertices into primitives, in order [GL 2.1, 2.6.1].
 /// - Lines cover pixels by the diamond-exit rule; a loop returns to its first vertex.
-/// - Quads are split along the diagonal from their first to their third vertex, quads of a strip from the
-/// first to
-///   the last of their four vertices. Polygons must be convex and are split as fans around their first
-///   vertex.
+/// - Quads are split from their first to their third vertex, quads of a strip from the first to the last of
+///   their four vertices. Polygons must be convex and are split as fans around their first vertex.
 /// - Facing and generated normals belong to the whole quad or polygon.
 enum class Primitive : std::uint8_t {
   points,

@@ -77,7 +77,7 @@ struct DebugOptions {
 
 struct RendererOptions {
   /// Worker threads, 1 to 1024. 0: all cores that the process may use, or all workers of the executor, up to
-  /// 1024. More than there are workers: limited to their number.
+  /// 1024. Larger values are reduced to the number of workers.
   int threads = 0;
   int tile_size = 0;  ///< pixels: 32, 64 or 128; 0: chosen per frame from its size and the threads
   InstructionSet instruction_set = InstructionSet::automatic;
@@ -89,23 +89,21 @@ struct RendererOptions {
   /// Progress callback; `done` rises to 1 in frames that have tiles to render. Returns whether to go on.
   /// - Called at the end of each stage, and at most about 100 times per second in between.
   /// - Runs on any worker thread, once at a time per renderer.
-  /// - May record frames, and finish them with other renderers. Finishing with its own renderer throws Error;
-  /// the
-  ///   running frame must be left alone.
-  /// - False: finish() throws Cancelled. An exception: finish() throws it (std::bad_alloc as Error). The
-  /// callback
-  ///   is not called again.
+  /// - May record frames and finish them with other renderers; finishing with its own throws Error.
+  /// - Must not modify, reset or destroy the running frame.
+  /// - If it returns false, finish() throws Cancelled. If it throws, finish() rethrows (std::bad_alloc as
+  ///   Error). Either way it is not called again.
   /// - After that the frame buffer is unchanged, except for tiles of kept buffers that were already stored;
-  ///   images and captures may be partly written. Finishing the frame again gives its picture if it starts
-  ///   with clears of whole buffers.
+  ///   images and captures may be partly written. Finishing the frame again repairs the picture if its first
+  ///   commands clear whole buffers.
   std::function<bool(double done)> progress{};
   /// Receives messages; the library never prints.
-  /// - Called on the thread that calls the renderer. Exceptions leave that call; a frame is then rendered,
-  /// and
-  ///   still recorded.
+  /// - Called on the thread that calls the renderer.
+  /// - Exceptions propagate from that call. From finish(): the picture is complete, and the frame keeps its
+  ///   commands.
   std::function<void(LogLevel level, std::string_view message)> log{};
   /// For profilers: receives the tasks of each frame at its end, ordered by begin.
-  /// - Called like log. Empty if there was no memory for the list.
+  /// - Threads and exceptions as for `log`. The list is empty if it could not be allocated.
   std::function<void(std::span<const FrameTask> tasks)> trace{};
 };
 

@@ -88,7 +88,7 @@ struct Intrinsics {
 };
 /// The camera of a calibrated picture. Frame buffers of another size stretch the picture.
 /// @param camera_from_world  extrinsic matrix, world to camera space in the given axes
-/// @param near, far          as for perspective(), in units of the world (metres)
+/// @param near, far          as for perspective(), in the units of the world
 /// @throws Error  for focal lengths, sizes or volumes out of range, or a matrix that is not finite
 TESSERA_API Camera calibrated_camera(const Intrinsics& intrinsics, const Matrix& camera_from_world,
                                      double near, double far, CameraAxes axes = CameraAxes::opencv,

@@ -11,11 +11,11 @@
 // Conventions: OpenGL's.
 // - Right-handed; the camera looks along -z; column vectors; matrices are written in rows.
 // - Front faces are counter-clockwise. Angles are in degrees.
-// - Window coordinates have their origin at the lower left. Images and planes in memory start with the top
-// row.
+// - Window coordinates have their origin at the lower left. Images and planes in memory: top row first.
 // - Geometry is double, colours and lights are float. No transfer curve is applied.
 //
-// Errors: tessera::Error, thrown before a pixel is touched.
+// Errors: tessera::Error. Errors of arguments are thrown before a pixel changes; for cancelled frames see
+// RendererOptions::progress.
 // - code() is the kind of error, what() the value found and the values expected.
 // - Odd data (NaN vertices, triangles without area) is no error: it is dropped and counted in FrameStats.
 // - Functions marked noexcept, destructors and moves do not throw; all others may throw Error.

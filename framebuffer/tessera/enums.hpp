@@ -15,7 +15,8 @@ enum class PixelOrder : std::uint8_t { rgba8, bgra8 };
 /// Vector instructions that the kernels use. `automatic` selects the best set of this machine.
 enum class InstructionSet : std::uint8_t { automatic, scalar, avx2, avx512 };
 
-/// Comparison of a fragment's value with the stored or the reference value [GL 2.1, 4.1].
+/// Passes if `a op b` [GL 2.1, 4.1]. Depth: fragment and stored value. Stencil: reference and stored value.
+/// Alpha: fragment and reference.
 enum class Compare : std::uint8_t { never, less, equal, lequal, greater, notequal, gequal, always };
 
 /// Update of the stencil value after a test [GL 2.1, 4.1.5]. incr and decr saturate; incr_wrap and decr_wrap

@@ -6,7 +6,7 @@
 
 namespace tessera::program::cli {
 
-/// Escapes control characters as \\x1b, so that names and contents of files stay on one line.
+/// Replaces control characters by \xHH, so that names and contents of files stay on one line.
 inline std::string printable(std::string_view text) {
   constexpr char kDigits[] = "0123456789abcdef";
   std::string line;
