@@ -78,6 +78,8 @@ class ScopedFlag {
   bool& flag_;
 };
 
+std::shared_ptr<Executor> make_serial_executor() { return std::make_shared<SerialExecutor>(); }
+
 }  // namespace
 
 /// Tasks of one call.
@@ -126,8 +128,6 @@ struct WorkerPool::Dispatch {
   }
 };
 
-std::shared_ptr<Executor> serial_executor() { return std::make_shared<SerialExecutor>(); }
-
 WorkerPool::WorkerPool(int threads, std::shared_ptr<Executor> executor, std::uint32_t order)
     : executor_(std::move(executor)), order_(order) {
   if (executor_) {
@@ -137,7 +137,7 @@ WorkerPool::WorkerPool(int threads, std::shared_ptr<Executor> executor, std::uin
     const auto limit =
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     threads_ = std::clamp(threads, 1, std::max(1, limit));
-    executor_ = threads_ == 1 ? serial_executor() : std::make_shared<ArenaExecutor>(threads_);
+    executor_ = threads_ == 1 ? make_serial_executor() : std::make_shared<ArenaExecutor>(threads_);
   }
   shares_ = std::vector<Share>(static_cast<std::size_t>(threads_));
 }
@@ -189,3 +189,9 @@ void run_isolated(const std::function<void()>& run) { tbb::this_task_arena::isol
 int default_concurrency() { return std::max(1, tbb::info::default_concurrency()); }
 
 }  // namespace tessera::detail
+
+namespace tessera {
+
+std::shared_ptr<Executor> serial_executor() { return detail::make_serial_executor(); }
+
+}  // namespace tessera
