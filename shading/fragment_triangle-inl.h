@@ -33,6 +33,7 @@ struct FragmentTriangle {
   const int face;  // 0 front, 1 back
   const bool has_depth;
   const bool evaluates_colors;
+  bool has_given_colors = false;        // colors are flat_color or block_colors
   StencilTestConstants stencil{};       // constants of this face, if there is a test
   std::int32_t id = 0;                  // ColorWrite::deferred: number of the triangle
   std::uint32_t packed_color = 0;       // ColorWrite::constant
@@ -59,7 +60,10 @@ struct FragmentTriangle {
     if (!evaluates_colors) return;
     begin_surface(context, surface, triangle);
     surface.gathers_coordinates = false;  // an alpha test may sample the texture before
-    if (flat_color != nullptr || block_colors != nullptr) surface.attribute_count = 0;
+    // Flat draws keep their color for the alpha test while a capture of normals lights them.
+    const bool is_lit = surface.program != nullptr;
+    has_given_colors = !is_lit && (flat_color != nullptr || block_colors != nullptr);
+    if (has_given_colors) surface.attribute_count = 0;
     else surface.clamps_colors = surface.interpolates_colors;
   }
   /// Whether the alpha test depends on the texture.

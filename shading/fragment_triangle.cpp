@@ -109,9 +109,9 @@ HWY_INLINE void FragmentTriangle::store_ids(int index, const std::uint32_t* pass
 /// Evaluates the colors of the block's pixels in the batch, but for their alpha.
 HWY_INLINE void FragmentTriangle::evaluate_block(int bx, int by, std::uint32_t bits) {
   ShadingBatch& batch = context.memory.batch;
-  if (flat_color != nullptr) {
+  if (has_given_colors && flat_color != nullptr) {
     fill_colors(flat_color, batch, kBlockPixels);
-  } else if (block_colors != nullptr) {
+  } else if (has_given_colors) {
     for (int c = 0; c < 3; ++c)
       std::copy_n(block_colors + c * kBlockPixels, kBlockPixels, batch.field[kColorR + c]);
   } else if (surface.attribute_count > 0) {

@@ -244,17 +244,18 @@ TEST(Explain, TextHasOneLinePerEffect) {
   s.lights = {point_light()};
   s.lights[0].ambient = {1, 1, 1, 1};
   s.format.samples = 4;
-  EXPECT_EQ(explain(s),
-            "  depth test: on\n"
-            "  depth write: on\n"
-            "  multisampling: 4 samples per pixel; coverage, depth and stencil per sample, colour per pixel\n"
-            "  light 0: positional\n"
-            "  light 0 attenuation: skipped, the factors are 1 0 0\n"
-            "  light 0 spot: off, the cutoff is 180 degrees\n"
-            "  light 0 highlight: skipped, the specular product is black\n"
-            "  light 0 ambient part: differs between points\n"
-            "  shading: colours interpolated as triangles are drawn\n"
-            "  code path: triangles with several samples, colour deferred, depth unorm24, less and write\n");
+  EXPECT_EQ(
+      explain(s),
+      "  depth test: on\n"
+      "  depth write: on\n"
+      "  multisampling: 4 samples per pixel; coverage, depth and stencil per sample, colour per pixel\n"
+      "  light 0: positional\n"
+      "  light 0 attenuation: skipped, the factors are 1 0 0\n"
+      "  light 0 spot: off, the cutoff is 180 degrees\n"
+      "  light 0 highlight: skipped, the specular product is black\n"
+      "  light 0 ambient part: differs between points\n"
+      "  shading: colours interpolated as triangles are drawn\n"
+      "  code path: triangles with several samples, colour interpolated, depth unorm24, less and write\n");
 }
 
 TEST(Explain, NamesTheCodePathOfEachPolygonMode) {
@@ -265,7 +266,7 @@ TEST(Explain, NamesTheCodePathOfEachPolygonMode) {
   s.state.alpha_test = AlphaTest{};
   EXPECT_THAT(explain(s), HasSubstr("code path: fragments of triangles, colour evaluated, depth unorm24\n"));
   s.state = {.lighting = false, .back_mode = PolygonMode::line};
-  EXPECT_THAT(explain(s), AllOf(HasSubstr("  code path: triangles, colour constant, depth unorm24"),
+  EXPECT_THAT(explain(s), AllOf(HasSubstr("  code path: fragments of triangles, colour evaluated"),
                                 HasSubstr("  code path: fragments of lines, colour")));
   s.state.depth.test = Compare::never;
   EXPECT_THAT(explain(s), Not(HasSubstr("code path")));
