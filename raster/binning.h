@@ -20,7 +20,7 @@ namespace tessera::detail {
 
 /// Additional input for draws with polygon modes other than fill.
 struct PolygonModes {
-  PolygonMode style[2] = {};                ///< per face: [0] front, [1] back
+  PolygonMode mode[2] = {};                 ///< per face: [0] front, [1] back
   std::uint32_t draw[3] = {};               ///< draw number per PolygonMode: fill, line, point
   float line_width = 1;                     ///< pixels
   float point_size = 1;                     ///< pixels

@@ -74,9 +74,9 @@ struct UnormDepth {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(at(x, y) >> 32) >> shift);
   }
   /// Value of the plane at a sample of the tile's first pixel.
-  using Anchor = std::uint64_t;
-  static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup& samples, int s, int i,
-                                  SamplePosition, int, int) {
+  using SampleOrigin = std::uint64_t;
+  static HWY_INLINE SampleOrigin sample_origin(const TriangleGroup&, const SampleGroup& samples, int s, int i,
+                                               SamplePosition, int, int) {
     return samples.fixed_base[s][i];
   }
   /// Lower bound of the keys of triangle i's pixels and samples: the smallest of its vertices, less the
@@ -109,7 +109,7 @@ struct UnormDepth {
   }
   /// Step from the tile's first pixel to a block; block(sample, step) adds it to a sample's value.
   HWY_INLINE Block step_to(int bx, int by) const { return block_at(step(bx, by)); }
-  static HWY_INLINE Block block(Anchor sample, const Block& step) {
+  static HWY_INLINE Block block(SampleOrigin sample, const Block& step) {
     return {hn::Add(block_at(sample).start, step.start)};
   }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
@@ -149,7 +149,7 @@ struct Unorm32Depth : UnormDepth {
   HWY_INLINE Block block(int bx, int by) const { return {at(bx, by)}; }
   HWY_INLINE void step_right(Block& block) const { block.start += 4 * dx; }
   HWY_INLINE Block step_to(int bx, int by) const { return {step(bx, by)}; }
-  static HWY_INLINE Block block(Anchor sample, const Block& step) { return {sample + step.start}; }
+  static HWY_INLINE Block block(SampleOrigin sample, const Block& step) { return {sample + step.start}; }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
     alignas(64) std::int32_t key[kLanes];
     for (int l = 0; l < kLanes; ++l) key[l] = key_of(block.start + offset[chunk * kLanes + l]);
@@ -175,22 +175,22 @@ struct Float32Depth {
     high = high_01 > z[2] ? high_01 : z[2];
     dx = g.depth_dx[i];
     dy = g.depth_dy[i];
-    const Anchor first = from_anchor(g, i, {0, 0}, tile_x, tile_y);
+    const SampleOrigin first = from_anchor(g, i, {0, 0}, tile_x, tile_y);
     first_x = first.x;
     first_y = first.y;
   }
   HWY_INLINE void prepare_blocks() {}
-  struct Anchor {
+  struct SampleOrigin {
     double x, y;
   };
   /// Vector from the anchor to a sample of the tile's first pixel, in pixels. Exact: 24 bits.
-  static HWY_INLINE Anchor from_anchor(const TriangleGroup& g, int i, SamplePosition at, int tile_x,
-                                       int tile_y) {
+  static HWY_INLINE SampleOrigin from_anchor(const TriangleGroup& g, int i, SamplePosition at, int tile_x,
+                                             int tile_y) {
     return {(tile_x * kSubpixelScale + kHalfPixel - (g.anchor_x[i] - at.x)) * (1.0 / 256),
             (tile_y * kSubpixelScale + kHalfPixel - (g.anchor_y[i] - at.y)) * (1.0 / 256)};
   }
-  static HWY_INLINE Anchor anchor(const TriangleGroup& g, const SampleGroup&, int, int i, SamplePosition at,
-                                  int tile_x, int tile_y) {
+  static HWY_INLINE SampleOrigin sample_origin(const TriangleGroup& g, const SampleGroup&, int, int i,
+                                               SamplePosition at, int tile_x, int tile_y) {
     return from_anchor(g, i, at, tile_x, tile_y);
   }
   /// The bits of floats that are not negative compare as the floats do.
@@ -220,7 +220,7 @@ struct Float32Depth {
   HWY_INLINE Block step_to(int bx, int by) const {
     return {static_cast<double>(bx), static_cast<double>(by)};
   }
-  static HWY_INLINE Block block(Anchor sample, const Block& step) {
+  static HWY_INLINE Block block(SampleOrigin sample, const Block& step) {
     return {sample.x + step.x, sample.y + step.y};
   }
   HWY_INLINE Int keys(const Block& block, int chunk) const {

@@ -84,7 +84,7 @@ void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::ui
   for (std::uint32_t t = (first + per_polygon - 1) / per_polygon * per_polygon; t < last; t += per_polygon) {
     const Facing facing = draw.facing[t];
     const bool front = facing == Facing::front;
-    const PolygonMode mode = modes.style[front ? 0 : 1];
+    const PolygonMode mode = modes.mode[front ? 0 : 1];
     if (facing == Facing::dropped) {
       counts.non_finite += per_polygon;
     } else if (!(front ? draw.keep_front : draw.keep_back)) {

@@ -43,7 +43,7 @@ struct MsaaTrianglePixels {
   TileContext& context;
   const TileDraw& draw;
   Depth depth;
-  typename Depth::Anchor anchors[kMaxSamples];
+  typename Depth::SampleOrigin origins[kMaxSamples];
   Edges32 edges;              // dominating edges, never below any sample's: they find the blocks
   Int below[kMaxSamples][3];  // sample's edges - dominating edges: 0 or less
   std::int32_t* stored_depth[kMaxSamples];
@@ -82,8 +82,8 @@ struct MsaaTrianglePixels {
                                                       : context.sample[s].visibility);
     }
     for (int s = 0; s < context.samples; ++s)
-      anchors[s] = Depth::anchor(g, samples, s, i, sample_positions(context.samples)[s], context.tile_x,
-                                 context.tile_y);
+      origins[s] = Depth::sample_origin(g, samples, s, i, sample_positions(context.samples)[s],
+                                        context.tile_x, context.tile_y);
   }
 
   // A full block is full for the dominating edges, not for every sample.
@@ -122,7 +122,7 @@ struct MsaaTrianglePixels {
         if (needs_scissor) mask = hn::And(mask, scissor_mask(context.rect, bx, by, chunk));
         if constexpr (kHasDepth<Depth>) {
           std::int32_t* const at = stored_depth[s] + index;
-          const Int before = hn::Load(kInt, at), key = depth.keys(depth.block(anchors[s], step), chunk);
+          const Int before = hn::Load(kInt, at), key = depth.keys(depth.block(origins[s], step), chunk);
           mask = hn::And(mask, kDepthTest == DepthTestPath::less_write
                                    ? hn::Lt(key, before)
                                    : compare_lanes(key, draw.depth_test, before));

@@ -18,9 +18,9 @@ struct NoDepth {
   HWY_INLINE void step_right(Block&) const {}
   HWY_INLINE void set_up(const TriangleGroup&, int, int, int, DepthFormat) {}
   HWY_INLINE void prepare_blocks() {}
-  struct Anchor {};
-  static HWY_INLINE Anchor anchor(const TriangleGroup&, const SampleGroup&, int, int, SamplePosition, int,
-                                  int) {
+  struct SampleOrigin {};
+  static HWY_INLINE SampleOrigin sample_origin(const TriangleGroup&, const SampleGroup&, int, int,
+                                               SamplePosition, int, int) {
     return {};
   }
   HWY_INLINE Block step_to(int, int) const { return {}; }

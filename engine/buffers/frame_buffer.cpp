@@ -365,9 +365,9 @@ void FrameBuffer::read_color(const ImageTarget& target) const {
                });
 }
 
-void FrameBuffer::read_color_words(std::span<std::uint32_t> words) const {
-  require_pixels(words, state_->format, "FrameBuffer::read_color_words");
-  for_each_row(*state_, Buffer::color, "FrameBuffer::read_color_words",
+void FrameBuffer::read_packed_colors(std::span<std::uint32_t> words) const {
+  require_pixels(words, state_->format, "FrameBuffer::read_packed_colors");
+  for_each_row(*state_, Buffer::color, "FrameBuffer::read_packed_colors",
                [&](std::span<const std::uint32_t> row, std::size_t y) {
                  std::copy(row.begin(), row.end(),
                            words.begin() + static_cast<std::ptrdiff_t>(y * row.size()));
@@ -385,9 +385,9 @@ void FrameBuffer::read_depth(std::span<float> depth) const {
                });
 }
 
-void FrameBuffer::read_depth_words(std::span<std::uint32_t> words) const {
-  require_pixels(words, state_->format, "FrameBuffer::read_depth_words");
-  for_each_row(*state_, Buffer::depth, "FrameBuffer::read_depth_words",
+void FrameBuffer::read_stored_depths(std::span<std::uint32_t> words) const {
+  require_pixels(words, state_->format, "FrameBuffer::read_stored_depths");
+  for_each_row(*state_, Buffer::depth, "FrameBuffer::read_stored_depths",
                [&](std::span<const std::uint32_t> row, std::size_t y) {
                  std::copy(row.begin(), row.end(),
                            words.begin() + static_cast<std::ptrdiff_t>(y * row.size()));

@@ -143,7 +143,7 @@ bool has_constant_color(const DrawPlan& plan) {
 }
 
 /// The stored value depends on the value before, or on the position of the pixel.
-bool is_order_dependent(const DrawPlan& plan, const ColorLayout& layout) {
+bool prevents_deferral(const DrawPlan& plan, const ColorLayout& layout) {
   return plan.has_ops &&
          (plan.ops.blend || plan.ops.dither || plan.ops.logic != LogicOp::copy || layout.alpha_bits > 0);
 }
@@ -173,7 +173,7 @@ void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& lay
   if (plan.texture.use == TexturePlan::Use::texels) {
     plan.textures_per_pixel = true;
     plan.scaled_colors = false;
-    plan.deferred = !is_order_dependent(plan, layout);
+    plan.deferred = !prevents_deferral(plan, layout);
     return;
   }
   const auto [r, g, b, a] = texture_env_reference(
@@ -234,7 +234,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     for (LightingProgram* program : {&plan.front, &plan.back}) program->renormalize = true;
   if (phong && plan.topology != Topology::points) {
     plan.source = ColorSource::per_pixel;
-    plan.deferred = !is_order_dependent(plan, layout);
+    plan.deferred = !prevents_deferral(plan, layout);
     plan_texturing(plan, false);
     plan.smooth_normals = generate;
     notes.active(Effect::shading, plan.deferred ? EffectReason::per_pixel : EffectReason::per_fragment);
@@ -266,7 +266,7 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
     // applies if samples share a colour that is not merely stored.
     const bool shades_visible = layout.index || layout.luminance || plan.textures_per_pixel ||
                                 (sampled && (plan.has_ops || plan.write_mask != 0xffffffffu));
-    plan.deferred = shades_visible && !is_order_dependent(plan, layout);
+    plan.deferred = shades_visible && !prevents_deferral(plan, layout);
     notes.active(Effect::shading,
                  plan.deferred ? EffectReason::interpolated_per_pixel : EffectReason::interpolated);
   }
@@ -301,7 +301,7 @@ void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
   const PolygonMode modes[2] = {plan.keep_front ? state.front_mode : state.back_mode,
                                 plan.keep_back ? state.back_mode : state.front_mode};
   for (int face = 0; face < 2 && has_faces; ++face) {
-    plan.style[face] = modes[face];
+    plan.mode[face] = modes[face];
     plan.outlines |= modes[face] != PolygonMode::fill;
   }
   plan.front_is_clockwise = state.front_face == FrontFace::cw;

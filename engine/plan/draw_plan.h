@@ -21,11 +21,11 @@ struct DrawPlan {
   EyeTransform eye;
   EyeTransform captured_eye;  ///< for captured normals, whose length does not matter
   Topology topology = Topology::triangles;
-  float point_size = 1;       ///< pixels
-  float line_width = 1;       ///< pixels
-  bool outlines = false;      ///< some faces are drawn as lines or points
-  PolygonMode style[2] = {};  ///< per face: [0] front, [1] back
-  PixelRect rect;             ///< pixels that may change, raster space
+  float point_size = 1;      ///< pixels
+  float line_width = 1;      ///< pixels
+  bool outlines = false;     ///< some faces are drawn as lines or points
+  PolygonMode mode[2] = {};  ///< per face: [0] front, [1] back
+  PixelRect rect;            ///< pixels that may change, raster space
   bool keep_front = true;
   bool keep_back = true;
   bool front_is_clockwise = false;

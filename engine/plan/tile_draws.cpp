@@ -49,7 +49,7 @@ std::span<const PolygonMode> polygon_modes_of(const DrawPlan& plan) {
                                kBothEnds[] = {PolygonMode::fill, PolygonMode::point};
   if (!plan.outlines) return {};
   const auto [first, last] =
-      std::minmax({static_cast<std::size_t>(plan.style[0]), static_cast<std::size_t>(plan.style[1])});
+      std::minmax({static_cast<std::size_t>(plan.mode[0]), static_cast<std::size_t>(plan.mode[1])});
   if (last - first == 2) return kBothEnds;
   return {kInOrder + first, last - first + 1};
 }

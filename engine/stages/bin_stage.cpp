@@ -68,13 +68,13 @@ void BinStage::prepare_draws(int samples) {
     draw.attribute_count = draw.attribute_stride = plan.varyings.count;
     if (plan.outlines) {
       PolygonModes& modes = geometry.buffers->modes;
-      modes = {.style = {plan.style[0], plan.style[1]},
+      modes = {.mode = {plan.mode[0], plan.mode[1]},
                .line_width = plan.line_width,
                .point_size = plan.point_size,
                .triangles = geometry.mesh->triangles_per_polygon(),
                .boundary = geometry.buffers->boundary.data()};
       std::uint32_t number = draw.draw;
-      for (const PolygonMode style : polygon_modes_of(plan)) modes.draw[static_cast<int>(style)] = number++;
+      for (const PolygonMode mode : polygon_modes_of(plan)) modes.draw[static_cast<int>(mode)] = number++;
       draw.modes = &modes;
     }
     draws_.push_back(draw);

@@ -118,11 +118,11 @@ class TESSERA_API FrameBuffer {
   /// The picture that a display shows, through the palette.
   void read_color(const ImageTarget& target) const;
   /// Stored words A:R:G:B, or indices.
-  void read_color_words(std::span<std::uint32_t> words) const;
+  void read_packed_colors(std::span<std::uint32_t> words) const;
   /// Depth, 0 near to 1 far.
   void read_depth(std::span<float> depth) const;
   /// Stored levels of unorm formats; the bits of the float for float32.
-  void read_depth_words(std::span<std::uint32_t> words) const;
+  void read_stored_depths(std::span<std::uint32_t> words) const;
   /// Distances from the eye plane along the view direction, in the camera's units.
   /// - Valid for draws with this projection and the depth range 0 to 1. The camera's view is ignored.
   /// - `background`, any float, is written where the depth is that of the far end.

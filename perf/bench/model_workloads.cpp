@@ -25,9 +25,9 @@ GlWorkload gl_workload_of(const Scene& scene) {
   LightModel model = scene.light_model;
   model.two_sided = false;
   for (const SceneCommand& command : scene.frame) {
-    if (const auto* clear = std::get_if<Clear>(&command.what); clear != nullptr && clear->color)
+    if (const auto* clear = std::get_if<Clear>(&command.value); clear != nullptr && clear->color)
       gl.clear_color = *clear->color;
-    if (const auto* draw = std::get_if<DrawCommand>(&command.what)) {
+    if (const auto* draw = std::get_if<DrawCommand>(&command.value)) {
       const DrawState& state = draw->state;
       gl.mesh = scene.meshes[draw->mesh];
       gl.shaders =
@@ -53,7 +53,7 @@ Drawing drawing_of(const ModelFile& file, int width, int height) {
   drawing.meshes = scene->meshes;
   drawing.record = [scene](const Drawing&, Frame& frame) { record(*scene, frame); };
   const auto draws = std::count_if(scene->frame.begin(), scene->frame.end(), [](const SceneCommand& command) {
-    return std::holds_alternative<DrawCommand>(command.what);
+    return std::holds_alternative<DrawCommand>(command.value);
   });
   if (draws == 1) drawing.gl_workload = [scene](const Drawing&) { return gl_workload_of(*scene); };
   return drawing;

@@ -68,7 +68,7 @@ Scene teapot(int width, int height, const Operation& operation) {
   Scene scene = builtin_scene();
   apply({.width = width, .height = height, .shading = Shading::phong}, scene);
   for (SceneCommand& command : scene.frame)
-    if (auto* const draw = std::get_if<DrawCommand>(&command.what))
+    if (auto* const draw = std::get_if<DrawCommand>(&command.value))
       operation.change(scene.framebuffer, draw->state);
   return scene;
 }
@@ -85,7 +85,7 @@ Picture picture_of(const Scene& scene) {
 
 Picture background_picture(Scene scene) {
   std::erase_if(scene.frame, [](const SceneCommand& command) {
-    return std::holds_alternative<DrawCommand>(command.what);
+    return std::holds_alternative<DrawCommand>(command.value);
   });
   return picture_of(scene);
 }

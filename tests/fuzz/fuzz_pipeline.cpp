@@ -34,8 +34,8 @@ Stored stored_in(const FrameBuffer& buffer) {
       static_cast<std::size_t>(buffer.format().width) * static_cast<std::size_t>(buffer.format().height);
   Stored stored;
   std::vector<std::uint32_t> words(pixels);
-  if (!error_of([&] { buffer.read_color_words(words); })) stored.words[0] = words;
-  if (!error_of([&] { buffer.read_depth_words(words); })) stored.words[1] = words;
+  if (!error_of([&] { buffer.read_packed_colors(words); })) stored.words[0] = words;
+  if (!error_of([&] { buffer.read_stored_depths(words); })) stored.words[1] = words;
   std::vector<std::uint8_t> values(pixels);
   if (!error_of([&] { buffer.read_stencil(values); })) stored.words[2].assign(values.begin(), values.end());
   std::vector<float> levels(4 * pixels);

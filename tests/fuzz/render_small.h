@@ -19,7 +19,7 @@ inline void render_small(Scene scene) {
         scene);
   std::size_t triangles = 0;
   for (const SceneCommand& command : scene.frame)
-    if (const auto* draw = std::get_if<DrawCommand>(&command.what))
+    if (const auto* draw = std::get_if<DrawCommand>(&command.value))
       triangles += scene.meshes[draw->mesh].triangle_count();
   if (triangles > kMaxSceneTriangles) return;
   FrameBuffer buffer(scene.framebuffer);

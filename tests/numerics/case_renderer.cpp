@@ -51,14 +51,14 @@ class TesseraCases : public CaseRenderer {
                  state);
     }
     renderer_.finish(frame);
-    buffer_.read_color_words(words_);
+    buffer_.read_packed_colors(words_);
     picture_.colors.resize(words_.size());
     for (std::size_t i = 0; i < words_.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c)
         picture_.colors[i][c] = static_cast<float>(words_[i] >> (16 - 8 * c) & 255) / 255.0f;
     if (has_depth) {
       picture_.depth.resize(words_.size());
-      buffer_.read_depth_words(picture_.depth);
+      buffer_.read_stored_depths(picture_.depth);
     }
     return picture_;
   }

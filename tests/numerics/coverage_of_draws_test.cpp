@@ -139,11 +139,11 @@ class CoverageOfDraws : public testing::TestWithParam<ShadingPath> {
     const FrameStats stats = painter.renderer->finish(frame);
 
     Wrong here;
-    buffer.read_color_words(words_);
+    buffer.read_packed_colors(words_);
     for (std::size_t i = 0; i < kPixels; ++i)
       here.colors += words_[i] != (path.has_color ? mesh.color_word(i) : 0) ? 1 : 0;
     if (state.depth.enabled) {
-      buffer.read_depth_words(words_);
+      buffer.read_stored_depths(words_);
       for (std::size_t i = 0; i < kPixels; ++i)
         here.depths += words_[i] != mesh.depth_word(i, depth.format) ? 1 : 0;
     }

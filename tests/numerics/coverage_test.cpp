@@ -223,7 +223,7 @@ class SampledBuffer {
     frame.clear({.color = Color{0, 0, 0, 1}, .stencil = 0});
     record(frame);
     renderer_.finish(frame);
-    buffer_.read_color_words(words_);
+    buffer_.read_packed_colors(words_);
     return words_;
   }
 

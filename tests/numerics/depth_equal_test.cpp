@@ -215,7 +215,7 @@ TEST(DepthEqual, TheSameTriangleIsEqualOnEveryPath) {
               frame.draw(mesh, again);
               renderer.finish(frame);
               std::vector<std::uint32_t> words(kSide * kSide);
-              buffer.read_color_words(words);
+              buffer.read_packed_colors(words);
               return words;
             };
             if (!expected) {  // covered pixels, without a depth test
@@ -226,7 +226,7 @@ TEST(DepthEqual, TheSameTriangleIsEqualOnEveryPath) {
               frame.draw(mesh, plain);
               renderer.finish(frame);
               expected.emplace(kSide * kSide);
-              buffer.read_color_words(*expected);
+              buffer.read_packed_colors(*expected);
               compared += static_cast<std::size_t>(std::count_if(
                   expected->begin(), expected->end(), [](std::uint32_t word) { return word != 0; }));
             }

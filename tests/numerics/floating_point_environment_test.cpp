@@ -149,11 +149,11 @@ struct ReadBack {
   }
   void read(const FrameBuffer& buffer, const Camera& camera) {
     const FrameBufferFormat& f = buffer.format();
-    buffer.read_color_words(words);
+    buffer.read_packed_colors(words);
     buffer.read_color(
         {.pixels = shown.data(), .width = f.width, .height = f.height, .stride_bytes = 4 * f.width});
     if (f.depth != DepthFormat::none) {
-      buffer.read_depth_words(depth_words);
+      buffer.read_stored_depths(depth_words);
       buffer.read_depth(depth);
       buffer.read_view_depth(view_depth, camera, 1e-41f);
     }
@@ -408,7 +408,7 @@ TEST(FloatingPointEnvironment, NeitherTrapsOnNorChangesInvalidInput) {
         Frame frame(buffer);
         frame.draw(mesh.view());
         stats = Renderer({.threads = 1}).finish(frame);
-        buffer.read_color_words(words);
+        buffer.read_packed_colors(words);
       },
       [&] { return std::pair(words, stats.dropped_non_finite); });
 }

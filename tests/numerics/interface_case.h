@@ -121,7 +121,7 @@ inline Outcome run(InterfaceCase& w, InstructionSet set) {
     if (target.height == 0) target.height = w.format.height;
     if (target.stride_bytes == 0) target.stride_bytes = 4 * std::ptrdiff_t{w.format.width};
     outcome.stats = renderer.finish(frame, target);
-    call = "FrameBuffer::read_color_words";
+    call = "FrameBuffer::read_packed_colors";
     outcome.fingerprint = fingerprint(buffer);
     outcome.color = packed_colors(buffer);
     if (w.format.depth != DepthFormat::none) outcome.depth = stored_depths(buffer);

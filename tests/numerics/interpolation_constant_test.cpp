@@ -204,7 +204,7 @@ TEST(InterpolationConstant, EveryPixelPathGivesOneColor) {
             frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0, .stencil = 0});
             frame.draw(mesh, state);
             renderer.finish(frame);
-            buffer.read_color_words(to);
+            buffer.read_packed_colors(to);
           };
           DrawState white;
           white.lighting = false;
@@ -214,7 +214,7 @@ TEST(InterpolationConstant, EveryPixelPathGivesOneColor) {
           frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
           frame.draw(plain, white);
           renderer.finish(frame);
-          buffer.read_color_words(covered);
+          buffer.read_packed_colors(covered);
           for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
             for (const bool lit : {false, true})
               for (const ShadingPath& path : kShadingPaths) {

@@ -32,7 +32,7 @@ struct Depths {
     for (int i = 0; i < kColumns; ++i) frame.clear({.depth = kDepths[i], .scissor = Rect{i, 0, 1, 1}});
     Renderer({.threads = 1}).finish(frame);
     std::vector<std::uint32_t> words(kColumns);
-    buffer.read_depth_words(words);
+    buffer.read_stored_depths(words);
     for (const std::uint32_t word : words)
       stored.push_back(format == DepthFormat::float32 ? Real{std::bit_cast<float>(word)}
                                                       : word / Real{0xffffff});

@@ -198,8 +198,8 @@ std::vector<std::uint32_t> stored(const FrameBuffer& buffer, const Rect& place) 
   std::vector<std::uint32_t> depths(pixels);
   std::vector<std::uint32_t> all;
   std::vector<std::uint8_t> stencil(pixels);
-  buffer.read_color_words(colors);
-  buffer.read_depth_words(depths);
+  buffer.read_packed_colors(colors);
+  buffer.read_stored_depths(depths);
   buffer.read_stencil(stencil);
   for (int y = format.height - place.y - kHeight; y < format.height - place.y; ++y)
     for (int x = place.x; x < place.x + kWidth; ++x) {

@@ -63,11 +63,11 @@ json json_of(const Scene& scene) {
                {"frame", json::array()}};
   for (const Light& light : scene.lights) file["lights"].push_back(json_of(light));
   for (const SceneCommand& command : scene.frame) {
-    if (const auto* clear = std::get_if<Clear>(&command.what))
+    if (const auto* clear = std::get_if<Clear>(&command.value))
       file["frame"].push_back(
           {{"clear",
             {{"color", components(*clear->color)}, {"depth", *clear->depth}, {"stencil", *clear->stencil}}}});
-    if (const auto* draw = std::get_if<DrawCommand>(&command.what)) {
+    if (const auto* draw = std::get_if<DrawCommand>(&command.value)) {
       const MeshData& mesh = scene.meshes[draw->mesh];
       const std::string name = "m" + std::to_string(draw->mesh);
       file["meshes"][name] = {{"positions", in_groups(mesh.positions, 3)},

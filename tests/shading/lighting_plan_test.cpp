@@ -257,14 +257,14 @@ TEST(Effects, TrackedColorsReplaceTheMaterialColors) {
 
 // Unlit points add 0 times the product: an infinity would become NaN.
 TEST(Effects, OverflowingProductsAreTheLargestFloat) {
-  constexpr float kMost = std::numeric_limits<float>::max();
+  constexpr float kLargest = std::numeric_limits<float>::max();
   Scene s;
   s.material.diffuse = s.material.specular = {1e30f, -1e30f, 0.5f};
   s.light.diffuse = s.light.specular = {1e30f, 1e30f, 0.5f};
   const LightingProgram program = s.plan();
   ASSERT_EQ(program.terms.size(), 1u);
-  EXPECT_EQ(program.terms[0].diffuse, (Rgb{kMost, -kMost, 0.25f}));
-  EXPECT_EQ(program.terms[0].specular, (Rgb{kMost, -kMost, 0.25f}));
+  EXPECT_EQ(program.terms[0].diffuse, (Rgb{kLargest, -kLargest, 0.25f}));
+  EXPECT_EQ(program.terms[0].specular, (Rgb{kLargest, -kLargest, 0.25f}));
 }
 
 TEST(Effects, NoLightsMakeAConstant) {

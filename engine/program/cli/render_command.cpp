@@ -83,10 +83,10 @@ void print_explanations(const Scene& scene, const Frame& frame) {
     std::cout << "draw " << index++ << ", " << name << ":\n" << text << "\n";
   };
   for (const SceneCommand& command : scene.frame) {
-    if (const auto* draw = std::get_if<DrawCommand>(&command.what))
+    if (const auto* draw = std::get_if<DrawCommand>(&command.value))
       print("\"" + scene.meshes[draw->mesh].name + "\"");
-    if (std::holds_alternative<BitmapCommand>(command.what)) print("bitmap");
-    if (std::holds_alternative<ImageCommand>(command.what)) print("image");
+    if (std::holds_alternative<BitmapCommand>(command.value)) print("bitmap");
+    if (std::holds_alternative<ImageCommand>(command.value)) print("image");
   }
 }
 
@@ -118,7 +118,7 @@ IndexedPicture indexed_picture(const FrameBuffer& buffer) {
   while (picture.bits / 2 >= format.color_bits) picture.bits /= 2;
   std::vector<std::uint32_t> packed_colors(static_cast<std::size_t>(format.width) *
                                            static_cast<std::size_t>(format.height));
-  buffer.read_color_words(packed_colors);
+  buffer.read_packed_colors(packed_colors);
   picture.indices.assign(packed_colors.begin(), packed_colors.end());
   if (format.color_mode == ColorMode::index) {
     // Entries beyond the scene's palette are black.

@@ -13,12 +13,12 @@ std::size_t pixel_count(const FrameBuffer& buffer) {
 
 std::vector<std::uint32_t> packed_colors(const FrameBuffer& buffer) {
   std::vector<std::uint32_t> words(pixel_count(buffer));
-  buffer.read_color_words(words);
+  buffer.read_packed_colors(words);
   return words;
 }
 std::vector<std::uint32_t> stored_depths(const FrameBuffer& buffer) {
   std::vector<std::uint32_t> words(pixel_count(buffer));
-  buffer.read_depth_words(words);
+  buffer.read_stored_depths(words);
   return words;
 }
 std::vector<std::uint8_t> stencil_values(const FrameBuffer& buffer) {

@@ -47,8 +47,9 @@ void Value::fail(std::string_view expected) const {
   refuse("found " + description(*json_) + ", expected " + std::string(expected));
 }
 
-void Value::refuse(std::string_view message) const {
-  throw Error(*file_ + ": " + (pointer_.empty() ? "(top level)" : pointer_) + ": " + std::string(message));
+void Value::refuse(std::string_view message, ErrorCode code) const {
+  throw Error(code,
+              *file_ + ": " + (pointer_.empty() ? "(top level)" : pointer_) + ": " + std::string(message));
 }
 
 void Value::refuse_unsupported(std::string_view what) const {

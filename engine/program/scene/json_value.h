@@ -46,7 +46,7 @@ class Value {
   /// @throws Error "file: pointer: found ..., expected ..."
   [[noreturn]] void fail(std::string_view expected) const;
   /// @throws Error "file: pointer: message"
-  [[noreturn]] void refuse(std::string_view message) const;
+  [[noreturn]] void refuse(std::string_view message, ErrorCode code = ErrorCode::invalid_argument) const;
   /// @throws Error for a value that the format defines but this version does not support
   [[noreturn]] void refuse_unsupported(std::string_view what = "") const;
 
@@ -96,7 +96,7 @@ class Value {
     } catch (const Cancelled&) {
       throw;
     } catch (const Error& error) {
-      refuse(error.what());
+      refuse(error.what(), error.code());
     }
   }
 

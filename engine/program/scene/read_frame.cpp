@@ -247,7 +247,7 @@ Accum read_accum(const Value& value, const FrameBufferFormat& format) {
 }
 
 Command read_command(const Value& value, const Names& names, const std::string& base_folder,
-                     ModelCache& cache) {
+                     FileCache& cache) {
   static constexpr std::array<std::string_view, 7> kCommands{"clear",  "draw",   "bitmap", "image",
                                                              "camera", "lights", "accum"};
   if (!value.json().is_object()) value.fail("an object with one of " + json::quoted_list(kCommands));
@@ -280,7 +280,7 @@ void read_fragment_state(const Object& object, const Scene& scene, DrawState& st
 
 std::vector<SceneCommand> read_frame(const Value& value, const Scene& scene, const Materials& materials,
                                      const std::vector<std::string>& textures, const std::string& base_folder,
-                                     ModelCache& cache) {
+                                     FileCache& cache) {
   Names names{.material_of = materials, .scene = scene, .lights = scene.lights};
   for (const MeshData& mesh : scene.meshes) names.meshes.add(mesh.name);
   for (const auto& [name, material] : materials) names.materials.add(name);
@@ -289,7 +289,7 @@ std::vector<SceneCommand> read_frame(const Value& value, const Scene& scene, con
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Value element = value.element(i);
     frame.push_back({read_command(element, names, base_folder, cache), element.pointer()});
-    if (const auto* lights = std::get_if<LightList>(&frame.back().what)) names.lights = *lights;
+    if (const auto* lights = std::get_if<LightList>(&frame.back().value)) names.lights = *lights;
   }
   return frame;
 }

@@ -29,7 +29,7 @@ MeshData read_builtin(const Value& value) {
                                    : kDefaultMeshDetail);
 }
 
-MeshData read_file(const Value& value, const std::string& base_folder, ModelCache& cache, Scene& scene) {
+MeshData read_file(const Value& value, const std::string& base_folder, FileCache& cache, Scene& scene) {
   const Object object(value, {"file"});
   const Value file = object.require("file");
   const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();
@@ -147,7 +147,7 @@ MeshData read_inline(const Value& value) {
 
 }  // namespace
 
-void read_meshes(const Value& value, const std::string& base_folder, ModelCache& models, Scene& scene) {
+void read_meshes(const Value& value, const std::string& base_folder, FileCache& models, Scene& scene) {
   value.for_each_member([&](const std::string& name, const Value& member) {
     const Object object(member, {"builtin", "detail", "file", "primitive", "positions", "normals", "colors",
                                  "color_indices", "texcoords", "indices"});

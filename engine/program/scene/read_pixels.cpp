@@ -33,7 +33,7 @@ FragmentState read_state(const Object& object, const Scene& scene) {
 }
 
 std::shared_ptr<const Picture> read_image_file(const Value& file, const std::string& base_folder,
-                                               ModelCache& cache) {
+                                               FileCache& cache) {
   const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();
   auto picture = cache.pictures.find(path.string());
   if (picture == cache.pictures.end()) {
@@ -91,7 +91,7 @@ BitmapCommand read_bitmap(const Value& value, const Scene& scene) {
 }
 
 ImageCommand read_image(const Value& value, const Scene& scene, const std::string& base_folder,
-                        ModelCache& cache) {
+                        FileCache& cache) {
   const Object object(value, {"at", "depth", "file", "zoom", "color_mask", "plane_mask", "scissor",
                               "alpha_test", "stencil", "blend", "logic_op"});
   ImageCommand command;

@@ -180,7 +180,7 @@ Materials read_materials(const Value& value) {
 namespace {
 
 Scene read_scene(const Json& json, const std::string& name, const std::string& base_folder,
-                 ModelCache& models) {
+                 FileCache& models) {
   const Object top(Value(json, "", name), {"tessera", "title", "framebuffer", "camera", "light_model",
                                            "lights", "materials", "textures", "meshes", "frame"});
   const Value version = top.require("tessera");
@@ -210,7 +210,7 @@ Scene read_scene(const Json& json, const std::string& name, const std::string& b
 Scene parse_scene(std::string_view text, const std::string& name, const std::string& base_folder) {
   Json json = json::parse(text, name);
   json::animate(json, 0, name);
-  ModelCache models;
+  FileCache models;
   return read_scene(json, name, base_folder, models);
 }
 
@@ -218,7 +218,7 @@ struct SceneFile::Content {
   std::string path;
   Json json;
   bool animated = false;
-  ModelCache models;
+  FileCache models;
 };
 
 SceneFile::SceneFile(const std::string& path, std::function<bool()> should_continue)

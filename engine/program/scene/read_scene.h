@@ -20,7 +20,7 @@ SceneCamera default_camera();
 LightList read_lights(const json::Value& value);
 
 /// Files that were read, so that an animation reads each once.
-struct ModelCache {
+struct FileCache {
   std::map<std::string, Model> models;                             ///< by path
   std::map<std::string, std::shared_ptr<const Picture>> pictures;  ///< by path
   /// By path, or by JSON text if the texels are in the scene; and by sampler.
@@ -28,7 +28,7 @@ struct ModelCache {
   std::function<bool()> should_continue;  ///< polled while a model is read
 };
 /// Appends every mesh of the file's `meshes`, and the importer's warnings.
-void read_meshes(const json::Value& value, const std::string& base_folder, ModelCache& models, Scene& scene);
+void read_meshes(const json::Value& value, const std::string& base_folder, FileCache& models, Scene& scene);
 
 /// Appends a row of pixels given as whole bytes of two hexadecimal digits.
 void read_hexadecimal_row(const json::Value& value, std::size_t bytes, std::vector<std::uint8_t>& row);
@@ -36,7 +36,7 @@ void read_hexadecimal_row(const json::Value& value, std::size_t bytes, std::vect
 /// Appends every texture of the file's `textures`.
 /// @return their names
 std::vector<std::string> read_textures(const json::Value& value, const std::string& base_folder,
-                                       ModelCache& cache, Scene& scene);
+                                       FileCache& cache, Scene& scene);
 
 using Materials = std::map<std::string, Material, std::less<>>;
 Materials read_materials(const json::Value& value);
@@ -50,13 +50,13 @@ void read_fragment_state(const json::Object& object, const Scene& scene, DrawSta
 
 BitmapCommand read_bitmap(const json::Value& value, const Scene& scene);
 ImageCommand read_image(const json::Value& value, const Scene& scene, const std::string& base_folder,
-                        ModelCache& cache);
+                        FileCache& cache);
 
 /// @param scene  the scene without its frame
 /// @param textures  names of scene.textures
 std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const Materials& materials,
                                      const std::vector<std::string>& textures, const std::string& base_folder,
-                                     ModelCache& cache);
+                                     FileCache& cache);
 /// Returns a clear of all buffers and a draw of every mesh.
 std::vector<SceneCommand> default_frame(const Scene& scene);
 

@@ -76,7 +76,7 @@ Texture read_texels(const Object& object, const TextureSampler& sampler) {
 }
 
 std::shared_ptr<const Texture> read_texture(const Value& value, const std::string& base_folder,
-                                            ModelCache& cache) {
+                                            FileCache& cache) {
   const bool in_scene = value.json().is_object() && value.json().contains("rows");
   const Object object = in_scene ? Object(value, {"channels", "rows", "mag", "min", "wrap_s", "wrap_t"})
                                  : Object(value, {"file", "mag", "min", "wrap_s", "wrap_t"});
@@ -105,7 +105,7 @@ std::shared_ptr<const Texture> read_texture(const Value& value, const std::strin
 
 }  // namespace
 
-std::vector<std::string> read_textures(const Value& value, const std::string& base_folder, ModelCache& cache,
+std::vector<std::string> read_textures(const Value& value, const std::string& base_folder, FileCache& cache,
                                        Scene& scene) {
   std::vector<std::string> names;
   value.for_each_member([&](const std::string& name, const Value& member) {

@@ -76,17 +76,17 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
     };
     override_camera(scene.camera);
     for (SceneCommand& command : scene.frame)
-      if (auto* camera = std::get_if<SceneCamera>(&command.what)) override_camera(*camera);
+      if (auto* camera = std::get_if<SceneCamera>(&command.value)) override_camera(*camera);
   }
   if (!overrides.lights.empty()) {
     scene.lights = overrides.lights;
     std::erase_if(scene.frame, [](const SceneCommand& command) {
-      return std::holds_alternative<LightList>(command.what);
+      return std::holds_alternative<LightList>(command.value);
     });
   }
   if (overrides.shading)
     for (SceneCommand& command : scene.frame)
-      if (auto* draw = std::get_if<DrawCommand>(&command.what)) draw->state.shading = *overrides.shading;
+      if (auto* draw = std::get_if<DrawCommand>(&command.value)) draw->state.shading = *overrides.shading;
 }
 
 void record(const Scene& scene, Frame& frame) {
@@ -104,7 +104,7 @@ void record(const Scene& scene, Frame& frame) {
                      [&](const Accum& accum) { frame.accumulate(accum); },
                      [&](const SceneCamera& camera) { frame.set_camera(camera.at_aspect(aspect)); },
                      [&](const LightList& lights) { frame.set_lights(lights); }},
-          command.what);
+          command.value);
     });
 }
 

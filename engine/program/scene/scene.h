@@ -57,7 +57,7 @@ using LightList = std::vector<Light>;
 using Command = std::variant<Clear, DrawCommand, BitmapCommand, ImageCommand, Accum, SceneCamera, LightList>;
 
 struct SceneCommand {
-  Command what;
+  Command value;
   std::string pointer;  ///< JSON pointer, for messages; empty: a command of the default frame
 };
 

@@ -95,9 +95,9 @@ TEST(ErrorsOfReading, NameSpansOfTheWrongSize) {
   std::vector<std::uint32_t> words(199);
   std::vector<float> depth(201);
   std::vector<std::uint8_t> stencil(0);
-  EXPECT_THAT(error_of([&] { buffer.read_color_words(words); }).value_or(""),
+  EXPECT_THAT(error_of([&] { buffer.read_packed_colors(words); }).value_or(""),
               AllOf(HasSubstr("199"), HasSubstr("200")));
-  EXPECT_THAT(error_of([&] { buffer.read_depth_words(words); }).value_or(""),
+  EXPECT_THAT(error_of([&] { buffer.read_stored_depths(words); }).value_or(""),
               AllOf(HasSubstr("199"), HasSubstr("200")));
   EXPECT_THAT(error_of([&] { buffer.read_depth(depth); }).value_or(""),
               AllOf(HasSubstr("201"), HasSubstr("200")));
@@ -112,7 +112,7 @@ TEST(ErrorsOfReading, NameMissingBuffersAndPlanes) {
   std::vector<float> depth(200);
   std::vector<std::uint8_t> stencil(200);
   EXPECT_THAT(error_of([&] { buffer.read_depth(depth); }).value_or(""), HasSubstr("no depth buffer"));
-  EXPECT_THAT(error_of([&] { buffer.read_depth_words(words); }).value_or(""), HasSubstr("no depth buffer"));
+  EXPECT_THAT(error_of([&] { buffer.read_stored_depths(words); }).value_or(""), HasSubstr("no depth buffer"));
   EXPECT_THAT(error_of([&] { buffer.read_stencil(stencil); }).value_or(""), HasSubstr("no stencil buffer"));
   EXPECT_THAT(error_of([&] { buffer.plane(Buffer::depth, 0); }).value_or(""), HasSubstr("no depth buffer"));
   EXPECT_THAT(error_of([&] { buffer.plane(Buffer::stencil, 0); }).value_or(""),

@@ -97,7 +97,7 @@ TEST_F(ModelImport, RendersOneModelAlikeFromSixFormats) {
     EXPECT_EQ(model.mesh.indices.size() / 3, 3732u) << name;
     Scene scene = model_scene(model, name, 320, 240);
     for (SceneCommand& command : scene.frame)
-      if (auto* draw = std::get_if<DrawCommand>(&command.what)) draw->state.material = {};
+      if (auto* draw = std::get_if<DrawCommand>(&command.value)) draw->state.material = {};
     FrameBuffer buffer(scene.framebuffer);
     Frame frame(buffer);
     record(scene, frame);

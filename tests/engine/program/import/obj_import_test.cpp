@@ -325,7 +325,7 @@ TEST_F(ObjImport, DefaultCameraShowsWholeModel) {
         EXPECT_LE(std::abs(clip[k]), clip[3]) << width << "x" << height << " vertex " << i / 3;
     }
     EXPECT_TRUE(scene.light_model.local_viewer);
-    EXPECT_EQ(std::get<DrawCommand>(scene.frame.at(1).what).state.shading, Shading::phong);
+    EXPECT_EQ(std::get<DrawCommand>(scene.frame.at(1).value).state.shading, Shading::phong);
   }
   EXPECT_THROW(model_scene(import_model(write("point.obj", "v 1 1 1\nf 1 1 1\n")), "point.obj"), Error);
 }

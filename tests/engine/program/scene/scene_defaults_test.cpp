@@ -14,9 +14,9 @@ Scene parse(const std::string& keys) {
   return parse_scene("{\"tessera\": 1" + (keys.empty() ? "" : ", " + keys) + "}", "test.json");
 }
 const DrawCommand& draw_of(const Scene& scene, std::size_t i) {
-  return std::get<DrawCommand>(scene.frame.at(i).what);
+  return std::get<DrawCommand>(scene.frame.at(i).value);
 }
-const Clear& clear_of(const Scene& scene, std::size_t i) { return std::get<Clear>(scene.frame.at(i).what); }
+const Clear& clear_of(const Scene& scene, std::size_t i) { return std::get<Clear>(scene.frame.at(i).value); }
 bool same(const Matrix& a, const Matrix& b) { return a.m == b.m; }
 bool same(Color a, Color b) { return a.r == b.r && a.g == b.g && a.b == b.b && a.a == b.a; }
 
@@ -104,13 +104,13 @@ TEST(SceneDefaults, ReadsAllKeysOfAccum) {
               {"accum": {"op": "return", "value": 2, "scissor": [1, 2, 3, 4], "color_mask": [true, false,
     true, false]}}])");
   EXPECT_EQ(scene.framebuffer.accumulation_bits, 32);
-  EXPECT_TRUE(same(*std::get<Clear>(scene.frame[0].what).accumulation, {0.5f, -0.25f, 0, -1}));
-  const auto& mult = std::get<Accum>(scene.frame[1].what);
+  EXPECT_TRUE(same(*std::get<Clear>(scene.frame[0].value).accumulation, {0.5f, -0.25f, 0, -1}));
+  const auto& mult = std::get<Accum>(scene.frame[1].value);
   EXPECT_EQ(mult.op, AccumOp::mult);
   EXPECT_EQ(mult.value, -0.1);
   EXPECT_FALSE(mult.scissor);
   EXPECT_EQ(mult.color_mask, (std::array<bool, 4>{true, true, true, true}));
-  const auto& returned = std::get<Accum>(scene.frame[2].what);
+  const auto& returned = std::get<Accum>(scene.frame[2].value);
   EXPECT_EQ(returned.op, AccumOp::return_color);
   ASSERT_TRUE(returned.scissor);
   EXPECT_EQ(returned.scissor->height, 4);
@@ -179,12 +179,12 @@ TEST(SceneDefaults, ReadsCameraAndLightsCommands) {
       R"("frame": [{"camera": {"view": [1,0,0,0, 0,1,0,0, 0,0,1,-5, 0,0,0,1],
     "projection": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "reversed": true}},
                                          {"lights": []}, {"lights": [{}, {}]}])");
-  const auto& camera = std::get<SceneCamera>(scene.frame[0].what);
+  const auto& camera = std::get<SceneCamera>(scene.frame[0].value);
   EXPECT_TRUE(camera.reversed);
   EXPECT_EQ(camera.at_aspect(3).view.m[11], -5);
   EXPECT_TRUE(same(camera.at_aspect(3).projection, Matrix{}));
-  EXPECT_TRUE(std::get<LightList>(scene.frame[1].what).empty());
-  EXPECT_EQ(std::get<LightList>(scene.frame[2].what).size(), 2u);
+  EXPECT_TRUE(std::get<LightList>(scene.frame[1].value).empty());
+  EXPECT_EQ(std::get<LightList>(scene.frame[2].value).size(), 2u);
 }
 
 TEST(SceneDefaults, BuiltInSceneIsShinyTeapot) {

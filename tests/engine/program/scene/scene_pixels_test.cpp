@@ -22,7 +22,7 @@ Scene scene_of(const std::string& frame, const std::string& rest = "") {
 }
 template <class Command>
 const Command& first(const Scene& scene) {
-  return std::get<Command>(scene.frame.at(0).what);
+  return std::get<Command>(scene.frame.at(0).value);
 }
 
 TEST(ScenePixels, BitmapDefaults) {
@@ -72,7 +72,7 @@ TEST(ScenePixels, ReadsImageOnceWithTopRowFirst) {
   for (const int shift : {0, 1}) {
     const Scene scene = file.at(shift);
     std::filesystem::remove(folder / "two.ppm");
-    const auto& command = std::get<ImageCommand>(scene.frame.at(1).what);
+    const auto& command = std::get<ImageCommand>(scene.frame.at(1).value);
     EXPECT_EQ(command.image.zoom_x, 1);
     EXPECT_EQ(command.image.zoom_y, 1);
     FrameBuffer buffer(scene.framebuffer);
@@ -122,7 +122,7 @@ TEST(ScenePixels, ShadowDefaultsAndCurrentLights) {
       R"({"lights": [{}, {"position": [0, 5, 0, 1]}]}, {"draw": "pot", "shadow_on": {"plane": [0, 1, 0, 2],
     "light": 1}})",
       pot);
-  EXPECT_EQ(std::get<DrawCommand>(later.frame.at(1).what).state.shadow_on->light, 1u);
+  EXPECT_EQ(std::get<DrawCommand>(later.frame.at(1).value).state.shadow_on->light, 1u);
 }
 
 }  // namespace

@@ -76,10 +76,10 @@ TEST_F(SceneTexture, ReadsAllKeys) {
   EXPECT_EQ(sampler.wrap_t, TextureWrap::mirrored_repeat);
   EXPECT_EQ(scene.textures[1]->channels(), 3);
   EXPECT_EQ(scene.meshes[0].texcoords, (std::vector<float>{0, 0.5f, 1, 2, 3, -4}));
-  const DrawState& plain = std::get<DrawCommand>(scene.frame[0].what).state;
+  const DrawState& plain = std::get<DrawCommand>(scene.frame[0].value).state;
   EXPECT_EQ(plain.texture, nullptr);
   EXPECT_EQ(plain.texture_env, TextureEnv::modulate);
-  const DrawState& state = std::get<DrawCommand>(scene.frame[1].what).state;
+  const DrawState& state = std::get<DrawCommand>(scene.frame[1].value).state;
   EXPECT_EQ(state.texture, scene.textures[1].get());
   EXPECT_EQ(state.texture_env, TextureEnv::blend);
   EXPECT_EQ(state.texture_env_color.g, 2);

@@ -62,14 +62,14 @@ TEST(LightingOverflow, AttenuationOfHugeDistancesIsFinite) {
 }
 
 /// A light whose contribution, or one of whose factors, overflows float.
-struct EndlessLight {
+struct OverflowingLight {
   const char* name;
   std::array<float, 3> normal, position;
   EyeLight light;
 };
-std::vector<EndlessLight> endless_lights() {
-  constexpr float kThird = 0.57735026f, kSixth = 0.4082483f, kMost = std::numeric_limits<float>::max();
-  std::vector<EndlessLight> all;
+std::vector<OverflowingLight> overflowing_lights() {
+  constexpr float kThird = 0.57735026f, kSixth = 0.4082483f, kLargest = std::numeric_limits<float>::max();
+  std::vector<OverflowingLight> all;
   const auto add = [&](const char* name, const std::array<float, 3>& normal, const auto& change) {
     EyeLight light = KnownColorCase().light();
     light.ambient = light.diffuse = light.specular = {0, 1, 0};
@@ -77,20 +77,20 @@ std::vector<EndlessLight> endless_lights() {
     change(all.back());
   };
   const auto attenuated = [](float constant) {
-    return [constant](EndlessLight& e) { e.light.attenuation = {constant, 0, 0}; };
+    return [constant](OverflowingLight& e) { e.light.attenuation = {constant, 0, 0}; };
   };
   add("the inverse of a small denominator", {0, 0, 1}, attenuated(1e-42f));
-  add("the inverse of a small denominator, with the largest colour", {0, 0, 1}, [&](EndlessLight& e) {
-    e.light.attenuation = {1e-42f, 0, 0}, e.light.diffuse = {0, kMost, 0};
+  add("the inverse of a small denominator, with the largest colour", {0, 0, 1}, [&](OverflowingLight& e) {
+    e.light.attenuation = {1e-42f, 0, 0}, e.light.diffuse = {0, kLargest, 0};
   });
   add("the same on long normals", {0, 0, 100}, attenuated(1e-42f));
   add("the same on longer ones", {0, 0, 1e10f}, attenuated(1e-42f));
   add("the longest normals", {0, 0, 3e38f}, attenuated(0.5f));
-  add("the longest normals, of no attenuation", {3e38f, 3e38f, 3e38f}, [&](EndlessLight& e) {
+  add("the longest normals, without attenuation", {3e38f, 3e38f, 3e38f}, [&](OverflowingLight& e) {
     e.light.directional = true, e.light.position = {kThird, kThird, kThird};
   });
   // Squares of such distances have few digits: |L| and V.D are 1.2.
-  add("a cone and attenuation, from a hair away", {0, 0, 1}, [](EndlessLight& e) {
+  add("a cone and attenuation, from a tiny distance", {0, 0, 1}, [](OverflowingLight& e) {
     e.position = {0, 0, 0};
     e.light.position = {0, 0, 4.5e-23f};
     e.light.attenuation = {0, 1, 0};
@@ -99,24 +99,24 @@ std::vector<EndlessLight> endless_lights() {
     e.light.spot_exponent = 16384;
   });
   // The cosine between its direction and its axis is 1 + 2^-23.
-  add("the largest colour in a cone's axis", {0, 0, 1}, [&](EndlessLight& e) {
+  add("the largest colour in a cone's axis", {0, 0, 1}, [&](OverflowingLight& e) {
     e.light.directional = true;
     e.light.position = {kSixth, kSixth, 2 * kSixth};
     e.light.spot_direction = {-kSixth, -kSixth, -2 * kSixth};
     e.light.spot_cutoff = 90;
     e.light.spot_exponent = 16384;
-    e.light.diffuse = e.light.specular = {0, kMost, 0};
+    e.light.diffuse = e.light.specular = {0, kLargest, 0};
   });
   return all;
 }
 // Lit components saturate, back-facing points stay unlit, and black stays black: for black lights, black
 // vertices, and under infinite highlights.
 TEST(LightingOverflow, InfiniteLightsLeaveBlackComponentsAlone) {
-  for (const EndlessLight& endless : endless_lights())
+  for (const OverflowingLight& overflowing : overflowing_lights())
     for (const bool tracked : {false, true})
       for (const float ambient : {0.0f, 1.0f}) {
         KnownColorCase s;
-        s.light() = endless.light;
+        s.light() = overflowing.light;
         s.light().ambient[1] = ambient;
         s.c.material.diffuse = {1, 1, 1};
         s.c.material.specular = tracked ? Rgb{} : Rgb{1, 1, 1};
@@ -125,11 +125,11 @@ TEST(LightingOverflow, InfiniteLightsLeaveBlackComponentsAlone) {
         s.points.resize(kBatchPoints);
         for (std::size_t i = 0; i < s.points.size(); ++i) {
           LightingPoint& p = s.points[i];
-          p = {endless.normal, endless.position, i % 4 == 3 ? Rgb{0, 0, 0} : Rgb{1, 1, 1}};
+          p = {overflowing.normal, overflowing.position, i % 4 == 3 ? Rgb{0, 0, 0} : Rgb{1, 1, 1}};
           if (i >= 16 && i % 2 == 0)
             for (float& n : p.normal) n = -n;
         }
-        SCOPED_TRACE(std::string(endless.name) + (tracked ? ", tracked" : "") +
+        SCOPED_TRACE(std::string(overflowing.name) + (tracked ? ", tracked" : "") +
                      (ambient != 0 ? ", ambient" : ""));
         for (const InstructionSet isa : available_isas()) {
           const std::vector<Rgb> colors = test::light(s.c.program(), s.points, isa);
