@@ -39,21 +39,25 @@ Accumulation::Accumulation(AccumOp op, double value, int bits, const ColorLayout
     : op_(op), value_(value), bits_(bits), layout_(layout), terms_{} {
   TESSERA_ASSERT((bits == 16 || bits == 32) && std::isfinite(value) && !layout.index);
   const Field alpha{layout.bits, layout.alpha_bits};
-  const Field grey{0, layout.bits};
-  fields_ = layout.luminance ? std::array<Field, 4>{grey, grey, grey, alpha}
-                             : std::array<Field, 4>{Field{layout.r_shift(), layout.r_bits},
-                                                    Field{layout.g_shift(), layout.g_bits},
-                                                    Field{0, layout.b_bits}, alpha};
+  if (layout.luminance) {
+    const Field grey{0, layout.bits};
+    fields_ = {grey, grey, grey, alpha};
+  } else {
+    const Field red{layout.r_shift(), layout.r_bits};
+    const Field green{layout.g_shift(), layout.g_bits};
+    const Field blue{0, layout.b_bits};
+    fields_ = {red, green, blue, alpha};
+  }
   const double one = accumulation_one(bits);
   for (std::size_t c = 0; c < 4; ++c) {
     if (op == AccumOp::add || fields_[c].bits == 0) {
       terms_[c][0] = rounded(value * one, kMaxTerm);
       continue;
     }
-    const int levels = (1 << fields_[c].bits) - 1;
-    for (int level = 0; level <= levels; ++level)
+    const int max_level = (1 << fields_[c].bits) - 1;
+    for (int level = 0; level <= max_level; ++level)
       terms_[c][static_cast<std::size_t>(level)] =
-          rounded(value * (static_cast<double>(level) / levels) * one, kMaxTerm);
+          rounded(value * (static_cast<double>(level) / max_level) * one, kMaxTerm);
   }
 }
 
@@ -89,19 +93,19 @@ void Accumulation::run(const std::uint32_t* packed_colors, const AccumulatedPixe
 }
 
 std::uint32_t Accumulation::packed_color(const AccumulatedPixel& levels, double threshold) const {
-  const auto color = [&](std::size_t c) {
+  const auto component = [&](std::size_t c) {
     return std::clamp(value_ * (levels[c] / accumulation_one(bits_)), 0.0, 1.0);
   };
-  const auto level = [&](double c, int bits) {
-    return static_cast<std::uint32_t>(c * ((1 << bits) - 1) + threshold);
+  const auto stored_level = [&](double value, int bits) {
+    return static_cast<std::uint32_t>(value * ((1 << bits) - 1) + threshold);
   };
-  const std::uint32_t alpha =
-      layout_.alpha_bits == 0 ? 0 : level(color(3), layout_.alpha_bits) << layout_.bits;
+  const double r = component(0), g = component(1), b = component(2);
+  std::uint32_t packed = 0;
+  if (layout_.alpha_bits != 0) packed = stored_level(component(3), layout_.alpha_bits) << layout_.bits;
   if (layout_.luminance)
-    return alpha |
-           level(std::min(kLumaR * color(0) + kLumaG * color(1) + kLumaB * color(2), 1.0), layout_.bits);
-  return alpha | level(color(0), layout_.r_bits) << layout_.r_shift() |
-         level(color(1), layout_.g_bits) << layout_.g_shift() | level(color(2), layout_.b_bits);
+    return packed | stored_level(std::min(kLumaR * r + kLumaG * g + kLumaB * b, 1.0), layout_.bits);
+  return packed | stored_level(r, layout_.r_bits) << layout_.r_shift() |
+         stored_level(g, layout_.g_bits) << layout_.g_shift() | stored_level(b, layout_.b_bits);
 }
 
 }  // namespace tessera::detail

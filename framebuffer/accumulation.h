@@ -45,7 +45,7 @@ class Accumulation {
   std::uint32_t packed_color(const AccumulatedPixel& levels, double threshold) const;
 
  private:
-  // Added to a component; clamped to twice the range of 32 bits, which saturates from any level.
+  // Terms added to a component, clamped to twice the range of 32 bits, which saturates from any level.
   using Terms = std::array<std::int64_t, kMaxLevels>;
   struct Field {
     int shift = 0;  ///< lowest bit in the packed colour
@@ -59,7 +59,7 @@ class Accumulation {
   int bits_;
   ColorLayout layout_;
   std::array<Field, 4> fields_;
-  std::array<Terms, 4> terms_;  ///< accum, load: indexed by the component's level; add: element 0
+  std::array<Terms, 4> terms_;  ///< accum, load: indexed by the stored component's level; add: element 0
 };
 
 }  // namespace tessera::detail

@@ -2,7 +2,8 @@
 // - AVX2: 32 pixels, by sign masks of bytes (MOVMSK).
 // - AVX-512: 64 pixels, by tests of bytes (VPTESTMB); whole cache lines with GFNI, see plane_lines-inl.h.
 // - Scalar: 8 pixels, as a square of bits.
-// Loads: bit_transpose_load.cpp.
+//
+// bit_transpose_load.cpp has the loads.
 #include "framebuffer/bit_transpose.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -54,15 +55,17 @@ namespace {
 
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
 
-// Loads two groups of 4 pixels, 16 pixels apart, one per 128-bit half: bytes are shuffled within halves.
+// Loads two groups of 4 pixels that are 16 pixels apart, one into each 128-bit half. The shuffles below move
+// bytes within halves only.
 HWY_INLINE __m256i load_groups(const std::uint32_t* pixels, int group) noexcept {
   const std::uint32_t* const low = pixels + group * kBlockPixels;
   const __m128i* const high = reinterpret_cast<const __m128i*>(low + 4 * kBlockPixels);
   return _mm256_inserti128_si256(
       _mm256_castsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(low))), _mm_load_si128(high), 1);
 }
-/// Stores those of 8 planes whose bit is set in `mask`. Bit k of each byte of `bytes` belongs to plane k. The
-/// sign mask extracts bit 7 of all bytes; adding a byte to itself shifts the next bit up.
+/// Stores 32 pixels of 8 planes; planes whose bit in `mask` is 0 are left out. Each byte of `bytes` is a
+/// pixel, its bit k belongs to plane k. The sign mask extracts bit 7 of all bytes; adding a byte to itself
+/// shifts the next bit up.
 HWY_INLINE void store_byte_planes(__m256i bytes, StripBits to, std::uint32_t mask) noexcept {
   if (mask == 0) return;
   for (int k = 7; k >= 0; --k) {
@@ -89,15 +92,19 @@ HWY_INLINE void store_strip(const std::uint32_t* pixels, __m256i flips, int insi
   const __m256i b = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(pixels, 1), flips), split);
   const __m256i c = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(pixels, 2), flips), split);
   const __m256i d = _mm256_shuffle_epi8(_mm256_xor_si256(load_groups(pixels, 3), flips), split);
-  // 4x4 transposition; the left group becomes the upper nibble of a plane's byte.
-  const __m256i ba01 = _mm256_unpacklo_epi32(b, a), ba23 = _mm256_unpackhi_epi32(b, a);
-  const __m256i dc01 = _mm256_unpacklo_epi32(d, c), dc23 = _mm256_unpackhi_epi32(d, c);
+  // Transposition of 4x4 words, from groups to bytes: ba01 has bytes 0 and 1 of the groups b and a. The left
+  // group of a pair comes second: it becomes the upper nibble of a plane's byte.
+  const __m256i ba01 = _mm256_unpacklo_epi32(b, a);
+  const __m256i ba23 = _mm256_unpackhi_epi32(b, a);
+  const __m256i dc01 = _mm256_unpacklo_epi32(d, c);
+  const __m256i dc23 = _mm256_unpackhi_epi32(d, c);
   __m256i bytes[4] = {_mm256_unpacklo_epi64(ba01, dc01), _mm256_unpackhi_epi64(ba01, dc01),
                       _mm256_unpacklo_epi64(ba23, dc23), _mm256_unpackhi_epi64(ba23, dc23)};
   if (inside_px < 32) {
-    const __m256i pixel = _mm256_setr_epi8(7, 6, 5, 4, 3, 2, 1, 0, 15, 14, 13, 12, 11, 10, 9, 8,  //
-                                           23, 22, 21, 20, 19, 18, 17, 16, 31, 30, 29, 28, 27, 26, 25, 24);
-    const __m256i inside = _mm256_cmpgt_epi8(_mm256_set1_epi8(static_cast<char>(inside_px)), pixel);
+    const __m256i pixel_of_byte =
+        _mm256_setr_epi8(7, 6, 5, 4, 3, 2, 1, 0, 15, 14, 13, 12, 11, 10, 9, 8,  //
+                         23, 22, 21, 20, 19, 18, 17, 16, 31, 30, 29, 28, 27, 26, 25, 24);
+    const __m256i inside = _mm256_cmpgt_epi8(_mm256_set1_epi8(static_cast<char>(inside_px)), pixel_of_byte);
     for (__m256i& byte : bytes) byte = _mm256_and_si256(byte, inside);
   }
   constexpr int kBytes = kWholeBytes == 0 ? 4 : kWholeBytes;
@@ -119,7 +126,10 @@ HWY_INLINE void store_wide_strip(const std::uint32_t* pixels, std::uint32_t flip
                                               load_groups(pixels + 8 * kBlockPixels, group), 1);
     return _mm512_shuffle_epi8(_mm512_xor_si512(groups, flips), split);
   };
-  const __m512i a = split_groups(0), b = split_groups(1), c = split_groups(2), d = split_groups(3);
+  const __m512i a = split_groups(0);
+  const __m512i b = split_groups(1);
+  const __m512i c = split_groups(2);
+  const __m512i d = split_groups(3);
   const __m512i ba01 = _mm512_unpacklo_epi32(b, a);
   const __m512i ba23 = _mm512_unpackhi_epi32(b, a);
   const __m512i dc01 = _mm512_unpacklo_epi32(d, c);
@@ -211,9 +221,9 @@ void store_planes(std::span<const std::uint32_t* const> tiles, const TilePlace& 
 void store_planes_per_line(std::span<const std::uint32_t* const> tiles, const TilePlace& first,
                            BitplaneStack& planes, std::uint32_t plane_store_mask) noexcept {
   const StripRows strip = strip_rows(tiles, first, planes);
-  const bool are_lines = first.x0_px % kLinePixels == 0 &&
-                         strip.width_px == std::min(kLinePixels, planes.width_px() - first.x0_px);
-  if (!are_lines) return store_planes(tiles, first, planes, plane_store_mask);
+  const bool covers_line = first.x0_px % kLinePixels == 0 &&
+                           strip.width_px == std::min(kLinePixels, planes.width_px() - first.x0_px);
+  if (!covers_line) return store_planes(tiles, first, planes, plane_store_mask);
   const std::uint32_t mask = plane_store_mask & planes.value_mask();
   if (mask != 0) store_lines(strip, first.flip, mask);
 }
@@ -225,13 +235,14 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tessera::detail {
-static bool has_lines(InstructionSet isa) { return isa == InstructionSet::avx512 && machine_has_gfni(); }
+static bool stores_lines(InstructionSet isa) { return isa == InstructionSet::avx512 && machine_has_gfni(); }
+
 int tiles_per_store(InstructionSet isa, int tile_size) noexcept {
-  return has_lines(isa) ? kLinePixels / tile_size : 1;
+  return stores_lines(isa) ? kLinePixels / tile_size : 1;
 }
 StorePlanesFn* store_planes_for(InstructionSet isa) noexcept {
 #if HWY_TARGETS & HWY_AVX3
-  if (has_lines(isa)) return &N_AVX3::store_planes_per_line;
+  if (stores_lines(isa)) return &N_AVX3::store_planes_per_line;
 #endif
   return store_planes_per_tile(isa);
 }

@@ -22,7 +22,7 @@
 namespace tessera::detail {
 namespace {
 
-/// Rows of a tile to be loaded, and their bits in the planes.
+/// Rows of a tile, and their bits in the planes.
 struct LoadedRows {
   std::uint32_t* tile;
   int tile_size;
@@ -44,7 +44,7 @@ namespace {
 
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
 
-/// Stores two groups of 4 pixels, 16 pixels apart, one per 128-bit half: bytes are shuffled within halves.
+/// Stores two groups of 4 pixels that are 16 pixels apart, one from each 128-bit half.
 HWY_INLINE void store_groups(__m256i groups, std::uint32_t* pixels, int group) noexcept {
   std::uint32_t* const low = pixels + group * kBlockPixels;
   _mm_store_si128(reinterpret_cast<__m128i*>(low), _mm256_castsi256_si128(groups));
@@ -52,8 +52,9 @@ HWY_INLINE void store_groups(__m256i groups, std::uint32_t* pixels, int group) n
 }
 
 /// In each 64 bits, moves bit b of byte k to bit 7 - k of byte 7 - b: a transposition about the other
-/// diagonal. Its own inverse. It maps planes, whose first pixel is bit 7, to pixels, whose first one is byte
-/// 0.
+/// diagonal, which is its own inverse.
+/// - Input: byte k is plane 7 - k, its bit 7 the first pixel.
+/// - Output: byte 0 is the first pixel, its bit k belongs to plane k.
 HWY_INLINE __m256i anti_transpose_8x8(__m256i x) noexcept {
   const auto pattern = [](std::uint64_t bits)
                            HWY_ATTR { return _mm256_set1_epi64x(static_cast<long long>(bits)); };
@@ -77,26 +78,27 @@ HWY_INLINE __m128i load_pair(const std::uint8_t* low, const std::uint8_t* high) 
   return _mm_unpacklo_epi64(_mm_cvtsi32_si128(bits[0]), _mm_cvtsi32_si128(bits[1]));
 }
 
-/// 8 planes -> one byte per pixel, left to right: pixels 0 to 31 in `left`, 32 to 63 (kPixels = 64) in
-/// `right`.
+/// Loads 8 planes: one byte per pixel, left to right, pixels 0 to 31 in `left`, 32 to 63 (kPixels = 64) in
+/// `right`. Plane k is at first + offset[k].
 template <int kPixels>
 HWY_INLINE void load_byte_planes(const std::uint8_t* first, const std::size_t* offset, __m256i& left,
                                  __m256i& right) noexcept {
-  // 8x8 transposition of bytes: each 64 bits then hold 8 planes of 8 pixels, plane 7 in the lowest byte.
+  // Transposition of 8x8 bytes: each 64 bits then hold 8 planes of 8 pixels, plane 7 in the lowest byte.
   const __m256i pairs = _mm256_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15,  //
                                          0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
   const __m256i planes76_32 = _mm256_set_m128i(load_pair<kPixels>(first + offset[3], first + offset[2]),
                                                load_pair<kPixels>(first + offset[7], first + offset[6]));
   const __m256i planes54_10 = _mm256_set_m128i(load_pair<kPixels>(first + offset[1], first + offset[0]),
                                                load_pair<kPixels>(first + offset[5], first + offset[4]));
-  const __m256i a = _mm256_shuffle_epi8(planes76_32, pairs), b = _mm256_shuffle_epi8(planes54_10, pairs);
+  const __m256i a = _mm256_shuffle_epi8(planes76_32, pairs);
+  const __m256i b = _mm256_shuffle_epi8(planes54_10, pairs);
   const __m256i zip = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);
   left = anti_transpose_8x8(_mm256_permutevar8x32_epi32(_mm256_unpacklo_epi16(a, b), zip));
   if (kPixels == 64)
     right = anti_transpose_8x8(_mm256_permutevar8x32_epi32(_mm256_unpackhi_epi16(a, b), zip));
 }
 
-/// Assembles 32 packed pixels from their bytes.
+/// Assembles and stores 32 packed pixels. bytes[i] holds byte i of each pixel.
 HWY_INLINE void store_pixels(const __m256i (&bytes)[4], __m256i flips, std::uint32_t* pixels) noexcept {
   const __m256i left01 = _mm256_unpacklo_epi8(bytes[0], bytes[1]);
   const __m256i right01 = _mm256_unpackhi_epi8(bytes[0], bytes[1]);
@@ -108,8 +110,9 @@ HWY_INLINE void store_pixels(const __m256i (&bytes)[4], __m256i flips, std::uint
   store_groups(_mm256_xor_si256(_mm256_unpackhi_epi16(right01, right23), flips), pixels, 3);
 }
 
+/// Loads kPixels pixels of kBytes bytes at a time.
 template <int kPixels, int kBytes>
-void load_rows(const LoadedRows rows, std::uint32_t flip, int plane_count) noexcept {
+void load_strips(const LoadedRows rows, std::uint32_t flip, int plane_count) noexcept {
   // Absent planes of the last byte are read from the last plane and masked out, which avoids a branch per
   // plane.
   std::size_t offset[kMaxPlanes];
@@ -133,18 +136,18 @@ void load_rows(const LoadedRows rows, std::uint32_t flip, int plane_count) noexc
 }
 
 template <int kPixels>
-void load_rows_of(const LoadedRows& rows, std::uint32_t flip, int plane_count) noexcept {
+void load_strips_of(const LoadedRows& rows, std::uint32_t flip, int plane_count) noexcept {
   switch ((plane_count + 7) / 8) {
-    case 1: return load_rows<kPixels, 1>(rows, flip, plane_count);
-    case 2: return load_rows<kPixels, 2>(rows, flip, plane_count);
-    case 3: return load_rows<kPixels, 3>(rows, flip, plane_count);
-    default: return load_rows<kPixels, 4>(rows, flip, plane_count);
+    case 1: return load_strips<kPixels, 1>(rows, flip, plane_count);
+    case 2: return load_strips<kPixels, 2>(rows, flip, plane_count);
+    case 3: return load_strips<kPixels, 3>(rows, flip, plane_count);
+    default: return load_strips<kPixels, 4>(rows, flip, plane_count);
   }
 }
 
 void load_rows(const LoadedRows& rows, std::uint32_t flip, int plane_count) noexcept {
-  return rows.tile_size == 32 ? load_rows_of<32>(rows, flip, plane_count)
-                              : load_rows_of<64>(rows, flip, plane_count);
+  if (rows.tile_size == 32) load_strips_of<32>(rows, flip, plane_count);
+  else load_strips_of<64>(rows, flip, plane_count);
 }
 
 #else

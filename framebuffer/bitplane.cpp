@@ -8,8 +8,8 @@ BitplaneStack::BitplaneStack(int width_px, int height_px, int plane_count) noexc
     : width_px_(width_px), height_px_(height_px), plane_count_(plane_count) {
   TESSERA_ASSERT(width_px >= 1 && height_px >= 1 && plane_count >= 0 && plane_count <= kMaxPlanes);
   const std::size_t row_lines = (static_cast<std::size_t>(width_px) + kLinePixels - 1) / kLinePixels;
-  // An even number of lines, especially a power of two, would map a pixel's bits in all planes to a few cache
-  // sets.
+  // Odd: an even number of lines, especially a power of two, would map a pixel's bits in all planes to a few
+  // cache sets.
   const std::size_t plane_lines = row_lines * static_cast<std::size_t>(height_px) | 1;
   stride_bytes_ = static_cast<std::ptrdiff_t>(row_lines * kPlaneAlignment);
   plane_stride_bytes_ = plane_lines * kPlaneAlignment;
@@ -17,9 +17,10 @@ BitplaneStack::BitplaneStack(int width_px, int height_px, int plane_count) noexc
 
 void BitplaneStack::allocate(std::uint32_t value) {
   if (allocated() || plane_count_ == 0) return;
-  memory_.reset(external_memory_ != nullptr ? external_memory_
-                                            : static_cast<std::uint8_t*>(::operator new (
-                                                  needed_bytes(), std::align_val_t{kPlaneAlignment})));
+  std::uint8_t* memory = external_memory_;
+  if (memory == nullptr)
+    memory = static_cast<std::uint8_t*>(::operator new (needed_bytes(), std::align_val_t{kPlaneAlignment}));
+  memory_.reset(memory);
   fill(value);
 }
 

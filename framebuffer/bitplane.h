@@ -29,8 +29,11 @@ class BitplaneStack {
   BitplaneStack(BitplaneStack&&) noexcept = default;
   BitplaneStack& operator=(BitplaneStack&& other) noexcept {
     release();
-    width_px_ = other.width_px_, height_px_ = other.height_px_, plane_count_ = other.plane_count_;
-    stride_bytes_ = other.stride_bytes_, plane_stride_bytes_ = other.plane_stride_bytes_;
+    width_px_ = other.width_px_;
+    height_px_ = other.height_px_;
+    plane_count_ = other.plane_count_;
+    stride_bytes_ = other.stride_bytes_;
+    plane_stride_bytes_ = other.plane_stride_bytes_;
     memory_ = std::move(other.memory_);
     external_memory_ = other.external_memory_;
     return *this;

@@ -47,7 +47,8 @@ inline constexpr float kLumaR = 0.30f, kLumaG = 0.59f, kLumaB = 0.11f;
 /// floor(c (2^b - 1) + 0.5), c clamped to 0..1; NaN counts as 0.
 inline std::uint32_t quantize(float c, int bits) {
   const float levels = static_cast<float>((1u << bits) - 1);
-  const float clamped = c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f;
+  const float at_least_zero = c > 0.0f ? c : 0.0f;
+  const float clamped = at_least_zero < 1.0f ? at_least_zero : 1.0f;
   return static_cast<std::uint32_t>(std::fma(clamped, levels, 0.5f));
 }
 /// Packed colour of an RGB or luminance layout.
@@ -68,10 +69,11 @@ inline std::uint32_t quantize_index(const ColorLayout& layout, float index) {
   const auto whole = static_cast<std::uint32_t>(index > 0 ? index : 0.0f);
   return (whole + (index - static_cast<float>(whole) >= 0.5f ? 1 : 0)) & layout.value_mask();
 }
-/// 8-bit level that a display shows for level v of b bits: round(255 v / (2^b - 1)), in integers.
+/// 8-bit display level of level v of b bits: round(255 v / (2^b - 1)) in integers, 0 for b = 0.
+/// @pre bits <= 16, so that the numerator fits in 32 bits
 constexpr std::uint32_t display_level(std::uint32_t v, int bits) {
-  const std::uint32_t levels = (1u << bits) - 1;
-  return levels == 0 ? 0 : (2 * 255 * v + levels) / (2 * levels);
+  const std::uint32_t max_level = (1u << bits) - 1;
+  return max_level == 0 ? 0 : (2 * 255 * v + max_level) / (2 * max_level);
 }
 
 constexpr int depth_bits(DepthFormat kind) {

@@ -8,8 +8,13 @@ namespace tessera::detail {
 
 namespace {
 
-float clamp_component(float c) noexcept { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; }
 constexpr float kMaxSquaredDistance = 16;  // exceeds the squared diagonal of the searched cube, 12
+
+// NaN becomes 0.
+float clamp_component(float c) noexcept {
+  const float at_least_zero = c > 0.0f ? c : 0.0f;
+  return at_least_zero < 1.0f ? at_least_zero : 1.0f;
+}
 double square(double d) noexcept { return d * d; }
 
 struct DistinctColor {
@@ -35,12 +40,14 @@ std::vector<DistinctColor> distinct_colors(const Palette& palette) {
   return colors;
 }
 
-/// Squared distances on one axis: from a level to the nearest and to the farthest point of a cell.
+/// Squared distances along one axis from a stored level to a cell.
 struct AxisDistances {
-  float nearest, farthest;
+  float nearest;   ///< to the nearest point of the cell
+  float farthest;  ///< to its farthest point
 };
 using AxisTable = std::array<AxisDistances, 256>;  ///< indexed by level
 
+/// Distances from all levels to cell number `cell`, if the range low .. high is divided into `cells` cells.
 AxisTable axis_table(double low, double high, int cells, int cell) noexcept {
   AxisTable table;
   for (int level = 0; level < 256; ++level) {
@@ -53,18 +60,20 @@ AxisTable axis_table(double low, double high, int cells, int cell) noexcept {
   return table;
 }
 
-// Appends to `kept` the colours that can be nearest to some point of a cell: those no farther from the cell
-// than min over all colours of (distance to the farthest point of the cell). `among`: candidates of a box
-// that contains the cell; `distances`: scratch.
+// Appends to `kept` the colours that can be nearest to some point of a cell. A colour cannot be nearest if
+// its distance to the nearest point of the cell exceeds another colour's distance to the farthest point.
+// - `among`: candidates of a box that contains the cell.
+// - `red`, `green`, `blue`: the cell's distances along the axes.
+// - `distances`: scratch memory.
 void keep_candidates(const std::vector<DistinctColor>& colors, const std::vector<std::uint32_t>& among,
-                     const AxisTable& x, const AxisTable& y, const AxisTable& z,
+                     const AxisTable& red, const AxisTable& green, const AxisTable& blue,
                      std::vector<float>& distances, std::vector<std::uint32_t>& kept) {
   float best_farthest = kMaxSquaredDistance;
   distances.resize(among.size());
   for (std::size_t i = 0; i < among.size(); ++i) {
     const Rgb8 c = colors[among[i]].color;
-    distances[i] = x[c.r].nearest + y[c.g].nearest + z[c.b].nearest;
-    best_farthest = std::min(best_farthest, x[c.r].farthest + y[c.g].farthest + z[c.b].farthest);
+    distances[i] = red[c.r].nearest + green[c.g].nearest + blue[c.b].nearest;
+    best_farthest = std::min(best_farthest, red[c.r].farthest + green[c.g].farthest + blue[c.b].farthest);
   }
   // Distances, here and in search(), and the cell of a point are rounded, each by less than one part in 10^6.
   // The margin keeps colours that rounding would drop.
@@ -96,7 +105,8 @@ PaletteSearch::PaletteSearch(const Palette& palette, bool dithered)
                         static_cast<float>(c.color.b) / 255.0f, c.index});
 
   // Octree: each level filters the candidates of its parent, so only the root tests all colours.
-  std::vector<std::vector<std::uint32_t>> coarse(1), fine;
+  std::vector<std::vector<std::uint32_t>> coarse(1);  // candidates per cell
+  std::vector<std::vector<std::uint32_t>> fine;       // per cell of half the size
   for (std::size_t i = 0; i < colors.size(); ++i) coarse[0].push_back(static_cast<std::uint32_t>(i));
   std::vector<float> distances;
   std::vector<AxisTable> axis;

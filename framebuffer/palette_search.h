@@ -1,7 +1,7 @@
 // Exact nearest-entry search in a palette.
 //
 // The colour cube is divided into cells; each cell keeps the entries that can be nearest to one of its
-// points. A search compares a handful of entries, with the result of a search over all. Twin:
+// points. A search compares only these few entries and finds the same one as a search over all. Twin:
 // palette_search_reference.h.
 #pragma once
 

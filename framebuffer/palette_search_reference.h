@@ -7,7 +7,10 @@ namespace tessera::detail {
 
 /// Specification of PaletteSearch::nearest().
 inline std::uint32_t nearest_reference(const Palette& palette, float r, float g, float b) noexcept {
-  const auto clamp = [](float c) { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; };
+  const auto clamp = [](float c) {
+    const float at_least_zero = c > 0.0f ? c : 0.0f;
+    return at_least_zero < 1.0f ? at_least_zero : 1.0f;
+  };
   const auto square = [](float d) { return d * d; };
   std::uint32_t nearest = 0;
   float nearest_distance = 4.0f;  // exceeds the squared diagonal of the cube, 3

@@ -1,17 +1,17 @@
 // Stores whole cache lines of planes, 512 pixels of 4 rows at a time, with AVX-512 and products of bit
 // matrices (GFNI).
 //
-// A block of tile memory, 4x4 packed pixels, is one vector. Each step below permutes the 64 bytes of vectors.
-// The list gives the meaning of a byte's position in its vector, from the highest bits of the position to the
-// lowest:
+// A block of tile memory, 4x4 packed pixels, is one vector. A line is handled in quarters of 128 pixels. Each
+// step permutes the 64 bytes of vectors, which are given here as arrays, the last index fastest:
 //
-//   - row (4), pixel (4), byte (4): a block as it is loaded.
-//   - row (4), half (2), pixel (8): byte b of the pixels of 4 blocks; `half` is the left or right half of a
-//     quarter line, 128 pixels.
-//   - row (4), half (2), plane (8): each 8x8 bits transposed, by a product with the identity matrix.
-//   - row (4), half (2), byte (8): 8 vectors, one per 8 pixels of each half, exchange bytes: 128 pixels of 4
-//     rows of one plane.
-//   - byte (64): 4 quarters exchange rows: a line of 512 pixels.
+//   1. [row 4][pixel 4][byte 4]: a block as it is loaded.
+//   2. [row 4][half 2][pixel 8]: one byte of the pixels of 4 blocks, two in each half of the quarter
+//      (transpose_byte()).
+//   3. [row 4][half 2][plane 8]: bits transposed in squares of 8x8, by products with the identity matrix
+//      (transpose_byte()).
+//   4. [row 4][half 2][8 pixels of one plane, 8 times]: 8 vectors, one per 8 pixels of each half, exchange
+//      bytes (exchange_all()).
+//   5. [8 pixels of one plane, 64 times]: the 4 quarters of a line exchange rows (store_plane_lines()).
 #if defined(TESSERA_FRAMEBUFFER_PLANE_LINES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_FRAMEBUFFER_PLANE_LINES_INL_H_
 #undef TESSERA_FRAMEBUFFER_PLANE_LINES_INL_H_
@@ -33,8 +33,10 @@ namespace HWY_NAMESPACE {
 
 inline constexpr int kQuarterPixels = kLinePixels / 4;
 
-/// Byte kByte of the pixels of 4 blocks, transposed: every 8 pixels of a row become 8 planes. Blocks 0 and 1
-/// lie in the left half of a quarter line, 2 and 3 in the right half.
+/// Steps 2 and 3 for byte kByte of the pixels of 4 blocks: every 8 pixels of a row become 8 planes.
+///
+/// @param split  per block [row 4][byte 4][pixel 4]; blocks 0 and 1 lie in the left half of a quarter, blocks
+///               2 and 3 in the right half
 template <int kByte>
 HWY_INLINE __m512i transpose_byte(const __m512i (&split)[4]) noexcept {
   const __m512i left =
@@ -52,15 +54,17 @@ HWY_INLINE __m512i transpose_byte(const __m512i (&split)[4]) noexcept {
 template <int kBit>
 HWY_INLINE void exchange(__m512i& a, __m512i& b) noexcept {
   constexpr __mmask64 kMasks[] = {0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc, 0xf0f0f0f0f0f0f0f0};
-  constexpr __mmask64 kHave = kMasks[kBit];
+  constexpr __mmask64 kBitIsSet = kMasks[kBit];
   constexpr int n = 1 << kBit;
   const __m512i other =
       _mm512_broadcast_i32x4(_mm_setr_epi8(n, 1 ^ n, 2 ^ n, 3 ^ n, 4 ^ n, 5 ^ n, 6 ^ n, 7 ^ n, 8 ^ n, 9 ^ n,
                                            10 ^ n, 11 ^ n, 12 ^ n, 13 ^ n, 14 ^ n, 15 ^ n));
   const __m512i kept = a;
-  a = _mm512_mask_shuffle_epi8(a, kHave, b, other);
-  b = _mm512_mask_shuffle_epi8(b, ~kHave, kept, other);
+  a = _mm512_mask_shuffle_epi8(a, kBitIsSet, b, other);
+  b = _mm512_mask_shuffle_epi8(b, ~kBitIsSet, kept, other);
 }
+
+/// Exchanges bytes between all pairs of vectors whose numbers differ in bit kBit.
 template <int kBit>
 HWY_INLINE void exchange_all(__m512i (&v)[8]) noexcept {
 #pragma GCC unroll 8
@@ -68,14 +72,15 @@ HWY_INLINE void exchange_all(__m512i (&v)[8]) noexcept {
     if ((i >> kBit & 1) == 0) exchange<kBit>(v[i], v[i | 1 << kBit]);
 }
 
-/// Transposes a quarter line, 128 pixels from x on, of the rows y .. y + 3. planes[k] gets plane k, row by
-/// row.
+/// Steps 1 to 4 for a quarter line, 128 pixels from x on, of the rows y .. y + 3. planes[k] gets plane k, row
+/// by row.
 ///
-/// @param bytes  number of 8-plane bytes per pixel, 1 to 4
+/// @param bytes  used bytes per pixel, 1 to 4; 8 planes each
 HWY_INLINE void transpose_quarter(const StripRows& strip, int x, int y, int bytes, __m512i* planes) noexcept {
   const __m512i split =
       _mm512_broadcast_i32x4(_mm_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15));
-  // In memory: more vectors than registers.
+  // eights[b][i]: the planes of byte b at the 8 pixels from x + 8 i on, and at those half a quarter further
+  // on. In memory, because there are more vectors than registers.
   alignas(64) __m512i eights[4][8];
 #pragma GCC unroll 1
   for (int i = 0; i < 8; ++i) {
@@ -112,6 +117,24 @@ inline __m512i line_mask(int inside_px) noexcept {
   return _mm512_load_si512(bytes);
 }
 
+/// Step 5: assembles and stores the lines of one plane from quarters of 4 rows. `flips` inverts bits,
+/// `inside` masks pixels outside the picture.
+HWY_INLINE void store_plane_lines(__m512i a, __m512i b, __m512i c, __m512i d, __m512i flips, __m512i inside,
+                                  std::uint8_t* to, std::ptrdiff_t stride_bytes, int rows) noexcept {
+  // ab01: rows 0 and 1 of the quarters a and b.
+  const __m512i ab01 = _mm512_shuffle_i32x4(a, b, 0x44);
+  const __m512i ab23 = _mm512_shuffle_i32x4(a, b, 0xee);
+  const __m512i cd01 = _mm512_shuffle_i32x4(c, d, 0x44);
+  const __m512i cd23 = _mm512_shuffle_i32x4(c, d, 0xee);
+  const __m512i lines[kBlockSize] = {
+      _mm512_shuffle_i32x4(ab01, cd01, 0x88), _mm512_shuffle_i32x4(ab01, cd01, 0xdd),
+      _mm512_shuffle_i32x4(ab23, cd23, 0x88), _mm512_shuffle_i32x4(ab23, cd23, 0xdd)};
+#pragma GCC unroll 4
+  for (int r = 0; r < kBlockSize; ++r)
+    if (r < rows)
+      _mm512_store_si512(to + r * stride_bytes, _mm512_and_si512(_mm512_xor_si512(lines[r], flips), inside));
+}
+
 /// Stores a strip of tiles in whole lines. @pre the strip covers all pixels of the picture in its cache line
 inline void store_lines(const StripRows& strip, std::uint32_t flip, std::uint32_t mask) noexcept {
   const int bytes = (std::bit_width(mask) + 7) / 8;
@@ -127,18 +150,8 @@ inline void store_lines(const StripRows& strip, std::uint32_t flip, std::uint32_
     for (int k = 0; k < 8 * bytes; ++k) {
       if ((mask >> k & 1) == 0) continue;
       const __m512i flips = _mm512_set1_epi32((flip >> k & 1) != 0 ? -1 : 0);
-      const __m512i a = quarters[0][k], b = quarters[1][k], c = quarters[2][k], d = quarters[3][k];
-      const __m512i ab01 = _mm512_shuffle_i32x4(a, b, 0x44), ab23 = _mm512_shuffle_i32x4(a, b, 0xee);
-      const __m512i cd01 = _mm512_shuffle_i32x4(c, d, 0x44), cd23 = _mm512_shuffle_i32x4(c, d, 0xee);
-      const __m512i lines[kBlockSize] = {
-          _mm512_shuffle_i32x4(ab01, cd01, 0x88), _mm512_shuffle_i32x4(ab01, cd01, 0xdd),
-          _mm512_shuffle_i32x4(ab23, cd23, 0x88), _mm512_shuffle_i32x4(ab23, cd23, 0xdd)};
-      std::uint8_t* const to = line.plane(k);
-#pragma GCC unroll 4
-      for (int r = 0; r < kBlockSize; ++r)
-        if (r < rows)
-          _mm512_store_si512(to + r * strip.stride_bytes,
-                             _mm512_and_si512(_mm512_xor_si512(lines[r], flips), inside));
+      store_plane_lines(quarters[0][k], quarters[1][k], quarters[2][k], quarters[3][k], flips, inside,
+                        line.plane(k), strip.stride_bytes, rows);
     }
   }
 }

@@ -115,15 +115,13 @@ HWY_INLINE PackedVec load_pixels(PackedTag d, const std::uint32_t* packed_pixels
 }
 
 /// Stores pixels at an address of any alignment.
-HWY_INLINE void store_pixels(PackedTag d, PackedVec pixels, std::uint8_t* to) noexcept {
+HWY_INLINE void store_pixels(PackedVec pixels, std::uint8_t* to) noexcept {
 #if HWY_TARGET == HWY_SCALAR
   const std::uint32_t pixel = hn::GetLane(pixels);
   std::memcpy(to, &pixel, sizeof pixel);
-  static_cast<void>(d);
 #else
-  hn::StoreU(hn::BitCast(hn::Repartition<std::uint8_t, PackedTag>(), pixels),
-             hn::Repartition<std::uint8_t, PackedTag>(), to);
-  static_cast<void>(d);
+  const hn::Repartition<std::uint8_t, PackedTag> bytes;
+  hn::StoreU(hn::BitCast(bytes, pixels), bytes, to);
 #endif
 }
 
@@ -137,7 +135,7 @@ HWY_INLINE void scan_out_row_with(const Pixels& pixels, const std::uint32_t* pac
   int x = 0;
   for (; x + kUnit <= width_px; x += kUnit, packed_pixels += kUnit / kBlockSize * kStep, row += 4 * kUnit)
     for (int i = 0; i < kUnit; i += kLanes)
-      store_pixels(d, pixels(d, load_pixels<kStep>(d, packed_pixels + i)), row + 4 * i);
+      store_pixels(pixels(d, load_pixels<kStep>(d, packed_pixels + i)), row + 4 * i);
   // The remainder goes through a buffer: neither pixels beyond the last one nor bytes beyond the row are
   // touched.
   const int rest_px = width_px - x;
@@ -163,13 +161,13 @@ HWY_INLINE void scan_out_block_row_with(const Pixels& pixels, const std::uint32_
       return pixels(d, hn::Load(d, packed_pixels + (x / kBlockSize + i) * kBlockPixels)).raw;
     };
     const __m512i b0 = block(0), b1 = block(1), b2 = block(2), b3 = block(3);
-    // Rows 0 1 0 1 in upper, 2 3 2 3 in lower.
+    // upper01: rows 0 1 of block 0, rows 0 1 of block 1. lower01: rows 2 3 of both.
     const __m512i upper01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(1, 0, 1, 0));
     const __m512i upper23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(1, 0, 1, 0));
     const __m512i lower01 = _mm512_shuffle_i64x2(b0, b1, _MM_SHUFFLE(3, 2, 3, 2));
     const __m512i lower23 = _mm512_shuffle_i64x2(b2, b3, _MM_SHUFFLE(3, 2, 3, 2));
     const auto store = [&](__m512i row, int y) HWY_ATTR {
-      store_pixels(d, PackedVec{row}, first_row + y * stride_bytes + std::ptrdiff_t{4} * x);
+      store_pixels(PackedVec{row}, first_row + y * stride_bytes + std::ptrdiff_t{4} * x);
     };
     store(_mm512_shuffle_i64x2(upper01, upper23, _MM_SHUFFLE(2, 0, 2, 0)), 0);
     store(_mm512_shuffle_i64x2(upper01, upper23, _MM_SHUFFLE(3, 1, 3, 1)), 1);

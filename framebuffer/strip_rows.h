@@ -1,5 +1,4 @@
-// Adjacent tiles of a row together with their bits in the planes: the view that the store kernels iterate
-// over.
+// Adjacent tiles of a row of tiles, together with their bits in the planes: the input of the store kernels.
 #pragma once
 
 #include <algorithm>
@@ -33,6 +32,7 @@ struct PlaneBits {
 
 using StripBits = PlaneBits<std::uint8_t>;
 
+/// Adjacent tiles and their bits in the planes.
 struct StripRows {
   std::span<const std::uint32_t* const> tiles;
   int tile_size;

@@ -13,8 +13,8 @@ inline constexpr int kMinTileSize = 32;
 inline constexpr int kMaxTileSize = 128;
 inline constexpr int kTileAlignment = 64;  ///< bytes
 
-/// Index of a pixel in tile memory: blocks row by row, the pixels of a block row by row. A block is one or
-/// two vectors.
+/// Index of a pixel in tile memory: blocks row by row, the pixels of a block row by row. A block is one
+/// AVX-512 vector or two AVX2 vectors.
 constexpr int tile_index(int x, int y, int tile_size) {
   return ((y / kBlockSize) * (tile_size / kBlockSize) + x / kBlockSize) * kBlockPixels +
          (y % kBlockSize) * kBlockSize + x % kBlockSize;

@@ -103,6 +103,7 @@ enum TriangleClass : std::int32_t {
   kInSeveralTiles = 32
 };
 
+/// Computes area, bounds and class of each triangle of the group. Tiles are 2^shift pixels wide.
 HWY_INLINE void classify_triangles(BinningGroup& g, const BinDraw& draw, int shift, int columns) {
   for (int k = g.count; k < kBinningGroupSize; ++k)
     for (int corner = 0; corner < 3; ++corner) g.x[corner][k] = g.y[corner][k] = 0;
@@ -114,9 +115,10 @@ HWY_INLINE void classify_triangles(BinningGroup& g, const BinDraw& draw, int shi
     g.area_sign[k] = (area > 0 ? 1 : 0) - (area < 0 ? 1 : 0);
   }
   if (draw.facing != nullptr) {
-    for (int k = 0; k < g.count; ++k)
-      g.passes_culling[k] =
-          (draw.facing[g.ids[k]] == Facing::front ? draw.keep_front : draw.keep_back) ? 1 : 0;
+    for (int k = 0; k < g.count; ++k) {
+      const bool is_kept = draw.facing[g.ids[k]] == Facing::front ? draw.keep_front : draw.keep_back;
+      g.passes_culling[k] = is_kept ? 1 : 0;
+    }
   } else {
     const std::int32_t keeps_negative =
         is_front(-1, draw.front_is_clockwise) ? draw.keep_front : draw.keep_back;
@@ -126,7 +128,8 @@ HWY_INLINE void classify_triangles(BinningGroup& g, const BinDraw& draw, int shi
       g.passes_culling[k] = g.area_sign[k] < 0 ? keeps_negative : keeps_positive;
   }
   const PixelRect rect = draw.rect;  // local copy: possible aliasing would prevent vectorization
-  const std::int32_t reach = draw.sample_reach, two_tiles = 2 << (shift + kSubpixelBits);
+  const std::int32_t reach = draw.sample_reach;
+  const std::int32_t extent_of_two_tiles = 2 << (shift + kSubpixelBits);
   for (int k = 0; k < kBinningGroupSize; ++k) {
     const std::int32_t low_x = min_of(g.x[0][k], g.x[1][k], g.x[2][k]);
     const std::int32_t high_x = max_of(g.x[0][k], g.x[1][k], g.x[2][k]);
@@ -138,12 +141,13 @@ HWY_INLINE void classify_triangles(BinningGroup& g, const BinDraw& draw, int shi
     g.py1[k] = min_of(last_pixel(high_y + reach), rect.y1 - 1);
     const std::int32_t first_column = g.px0[k] >> shift, first_row = g.py0[k] >> shift;
     g.tile[k] = first_row * columns + first_column;
-    const std::int32_t across = (g.px1[k] >> shift) - first_column, down = (g.py1[k] >> shift) - first_row;
+    const std::int32_t across = (g.px1[k] >> shift) - first_column;
+    const std::int32_t down = (g.py1[k] >> shift) - first_row;
     g.second_tile_offset[k] = down == 0 ? 1 : columns;
     g.extent[k] = max_of(high_x - low_x, high_y - low_y);
     // The rectangle may have cut a much larger triangle to two tiles: hence the limit on the extent.
     const std::int32_t multi_tile_class =
-        across + down == 1 && g.extent[k] <= two_tiles ? kInTwoTiles : kInSeveralTiles;
+        across + down == 1 && g.extent[k] <= extent_of_two_tiles ? kInTwoTiles : kInSeveralTiles;
     const std::int32_t visible_class = across + down == 0 ? kInOneTile : multi_tile_class;
     const std::int32_t kept_class =
         ((g.px0[k] > g.px1[k]) | (g.py0[k] > g.py1[k])) ? kOutside : visible_class;
@@ -174,7 +178,7 @@ HWY_INLINE void cull_between_samples(BinningGroup& g) {
     const auto turns_left = hn::Lt(load(g.area_sign), zero);
     const Int x[4] = {x0, hn::IfThenElse(turns_left, x2, x1), hn::IfThenElse(turns_left, x1, x2), x0};
     const Int y[4] = {y0, hn::IfThenElse(turns_left, y2, y1), hn::IfThenElse(turns_left, y1, y2), y0};
-    Int outside[4] = {zero, zero, zero, zero};  // per centre: negative if it lies outside an edge
+    Int outside[4] = {zero, zero, zero, zero};  // per centre: negative if it is outside an edge
     for (int k = 0; k < 3; ++k) {
       const Int a = hn::Sub(y[k], y[k + 1]), b = hn::Sub(x[k + 1], x[k]);
       // Fill rule as in triangle_setup-inl.h: a centre on a left edge (a > 0) or top edge (a = 0, b > 0) is
@@ -219,11 +223,17 @@ struct BinWriteCache {
   HWY_INLINE void add(int to_tile, std::uint32_t id) {
     if (tile[last] != to_tile) {
       last ^= 1;
-      if (tile[last] != to_tile) flush(last), tile[last] = to_tile;
+      if (tile[last] != to_tile) {
+        flush(last);
+        tile[last] = to_tile;
+      }
     }
     ids[last][count[last]++] = id;
   }
-  HWY_INLINE void flush() { flush(0), flush(1); }
+  HWY_INLINE void flush() {
+    flush(0);
+    flush(1);
+  }
 
  private:
   HWY_INLINE void flush(int slot) {
@@ -267,7 +277,7 @@ HWY_NOINLINE void bin_group(Bins& bins, const TileGrid& grid, const BinDraw& dra
   g.count = 0;
 }
 
-/// Treatment of a triangle whose vertices have outcodes or whose polygon is dropped.
+/// Treatment of a triangle with outcodes or of a dropped polygon.
 enum class ClipDecision { unusable, outside, clipped };
 HWY_INLINE ClipDecision clip_decision(const BinDraw& draw, std::uint32_t triangle, std::uint8_t c0,
                                       std::uint8_t c1, std::uint8_t c2) {
@@ -330,24 +340,29 @@ void bin_multi_tile_triangle(Bins& bins, const TileGrid& grid, const WindowVerte
                              const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1) {
   // Per edge, its maximum over the pixel centres (or samples) of a tile; the tile is outside if one is
   // negative. Values of 0 are left to the fill rule in the tile.
-  const std::int64_t side = std::int64_t{grid.tile_size} << kSubpixelBits;
-  const std::int64_t reach = side - kSubpixelScale;  // first to last pixel centre
+  const std::int64_t tile_side = std::int64_t{grid.tile_size} << kSubpixelBits;
+  const std::int64_t reach = tile_side - kSubpixelScale;  // from the first to the last pixel centre
   std::int64_t row_value[3], step_x[3], step_y[3];
   for (int k = 0; k < 3; ++k) {
     const WindowVertex &p = *v[k], &q = *v[(k + 1) % 3];
     std::int64_t a = p.y - q.y, b = q.x - p.x;
-    if (area < 0) a = -a, b = -b;
-    row_value[k] = a * (x0 * side + kHalfPixel - p.x) + b * (y0 * side + kHalfPixel - p.y) +
+    if (area < 0) {
+      a = -a;
+      b = -b;
+    }
+    row_value[k] = a * (x0 * tile_side + kHalfPixel - p.x) + b * (y0 * tile_side + kHalfPixel - p.y) +
                    std::max<std::int64_t>(a, 0) * reach + std::max<std::int64_t>(b, 0) * reach +
                    (std::abs(a) + std::abs(b)) * draw.sample_reach;
-    step_x[k] = a * side;
-    step_y[k] = b * side;
+    step_x[k] = a * tile_side;
+    step_y[k] = b * tile_side;
   }
   for (int ty = y0; ty <= y1; ++ty) {
     std::int64_t e0 = row_value[0], e1 = row_value[1], e2 = row_value[2];
     for (int tx = x0; tx <= x1; ++tx) {
       if ((e0 | e1 | e2) >= 0) bins.push(ty * grid.columns() + tx, draw.draw, id);
-      e0 += step_x[0], e1 += step_x[1], e2 += step_x[2];
+      e0 += step_x[0];
+      e1 += step_x[1];
+      e2 += step_x[2];
     }
     for (int k = 0; k < 3; ++k) row_value[k] += step_y[k];
   }

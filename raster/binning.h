@@ -42,8 +42,8 @@ struct BinDraw {
   /// Facing per triangle, decided by the whole polygon; null: each triangle's own area decides.
   const Facing* facing = nullptr;
   PixelRect rect;  ///< intersection of scissor, viewport and frame buffer
-  std::int32_t sample_reach =
-      0;  ///< largest distance per axis of a sample from its pixel's centre, 1/256 pixel
+  /// Largest distance per axis of a sample from its pixel's centre, 1/256 pixel.
+  std::int32_t sample_reach = 0;
   // For clipping.
   const VertexTransform* transform = nullptr;
   StridedFloats positions;
@@ -52,7 +52,7 @@ struct BinDraw {
   int attribute_count = 0;
   int attribute_stride = 0;  ///< floats from vertex to vertex
   // Points and lines.
-  float size = 1;  ///< point size or line width, pixels
+  float point_line_size = 1;  ///< size of points or width of lines, pixels
   int samples = 1;
   const PolygonModes* modes = nullptr;  ///< null: all polygons are filled
 };
@@ -87,7 +87,7 @@ void bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint3
 /// mode, edges made by clipping are drawn too. Throws std::bad_alloc. @pre draw.modes and draw.facing are set
 void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t first,
                   std::uint32_t last, InstructionSet isa);
-/// Bin the last derived primitive of `bins` as a point or a line. Return false if it covers no pixel of
+/// Bin the last derived primitive of `bins` as a point or as a line. Return false if it covers no pixel of
 /// draw.rect.
 bool bin_derived_point(Bins& bins, const TileGrid& grid, const BinDraw& draw);
 bool bin_derived_line(Bins& bins, const TileGrid& grid, const BinDraw& draw);

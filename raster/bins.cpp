@@ -6,7 +6,7 @@
 namespace tessera::detail {
 
 std::size_t Bins::bytes() const {
-  return tile_lists_.capacity() * sizeof(TileList) + triangles_.capacity() * sizeof(std::uint32_t) +
+  return tile_lists_.capacity() * sizeof(TileList) + element_counts_.capacity() * sizeof(std::uint32_t) +
          blocks_.capacity() * sizeof(Block) + derived_.capacity() * sizeof(DerivedPrimitive) +
          attributes_.capacity() * sizeof(float);
 }
@@ -16,7 +16,8 @@ std::size_t Bins::bytes() const {
 /// @param min_bytes  smallest size of an array that grows geometrically; 0: reserve exactly
 template <class T>
 bool Bins::reserve(std::vector<T>& items, std::size_t count, std::size_t min_bytes) {
-  const std::size_t wanted = items.size() + count, before = items.capacity();
+  const std::size_t wanted = items.size() + count;
+  const std::size_t before = items.capacity();
   if (wanted <= before) return true;
   const std::size_t after = min_bytes == 0 ? wanted : std::max({wanted, 2 * before, min_bytes / sizeof(T)});
   if (budget_ != nullptr && !budget_->take(after * sizeof(T))) return false;
@@ -36,18 +37,18 @@ void Bins::reset(int tile_count, int first_tile, BinBudget* budget) {
   derived_.clear();
   counts = {};
   tile_lists_.clear();
-  triangles_.clear();
+  element_counts_.clear();
   const std::size_t before = bytes();
   if (blocks_.empty()) blocks_.resize(1);  // the block that takes the entries after an overflow
   attributes_.clear();
   attributes_.assign(kAttributePadding, 0.0f);
   if (budget_ != nullptr) budget_->charge(bytes() - before);
-  overflowed_ = !reserve(tile_lists_, tiles, 0) || !reserve(triangles_, tiles, 0);
+  overflowed_ = !reserve(tile_lists_, tiles, 0) || !reserve(element_counts_, tiles, 0);
   // Without room for a list per tile, all tiles share one list, which is never read.
   tile_mask_ = overflowed_ ? 0 : ~std::size_t{0};
   const std::size_t lists = overflowed_ ? 1 : tiles;
   tile_lists_.assign(lists, TileList{kNone, kNone, kNone});
-  triangles_.assign(lists, 0);
+  element_counts_.assign(lists, 0);
 }
 
 void Bins::overflow() {
@@ -93,7 +94,7 @@ void Bins::drop_last_derived() {
 void BinBatches::set(std::span<const Bins> bins, int tile_count, int first_tile) {
   const auto tiles = static_cast<std::size_t>(tile_count);
   const std::size_t words = (bins.size() + 63) / 64;
-  triangles_.resize(tiles);
+  element_counts_.resize(tiles);
   batch_mask_.resize(tiles * words);
   bins_ = bins.data();
   count_ = static_cast<std::uint32_t>(bins.size());
@@ -105,15 +106,15 @@ void BinBatches::set(std::span<const Bins> bins, int tile_count, int first_tile)
 void BinBatches::index_batches(int first_tile, int count) {
   if (is_streamed()) return;
   const auto tiles = static_cast<std::size_t>(count);
-  std::uint64_t* const sums = triangles_.data() + index_of(first_tile);
+  std::uint64_t* const sums = element_counts_.data() + index_of(first_tile);
   std::uint64_t* const batch_mask = batch_mask_.data() + index_of(first_tile) * words_;
   std::fill_n(sums, tiles, 0);
   std::fill_n(batch_mask, tiles * words_, 0);
   for (std::uint32_t b = 0; b < count_; ++b) {
-    const std::uint32_t* const triangles = bins_[b].triangles_from(first_tile);
+    const std::uint32_t* const element_counts = bins_[b].element_counts_from(first_tile);
     for (std::size_t t = 0; t < tiles; ++t) {
-      sums[t] += triangles[t];
-      batch_mask[t * words_ + b / 64] |= std::uint64_t{triangles[t] != 0} << b % 64;
+      sums[t] += element_counts[t];
+      batch_mask[t * words_ + b / 64] |= std::uint64_t{element_counts[t] != 0} << b % 64;
     }
   }
 }

@@ -28,7 +28,7 @@ struct DerivedPrimitive {
   std::uint32_t source = 0;         ///< the element it derives from
 };
 
-/// Statistics of binning. Elements: triangles, lines or points.
+/// Statistics of binning. Elements are triangles, lines or points.
 struct BinCounts {
   std::uint64_t triangles_in = 0;  ///< all elements
   std::uint64_t non_finite = 0;
@@ -58,8 +58,8 @@ class BinBudget {
   explicit BinBudget(std::size_t bytes = 0) { start(bytes, 0); }
   /// Resets the budget to `bytes`, of which `taken` are in use. Not concurrently with other calls.
   void start(std::size_t bytes, std::size_t taken) {
-    left_ =
-        static_cast<std::int64_t>(std::min(bytes, std::size_t{1} << 62)) - static_cast<std::int64_t>(taken);
+    constexpr std::size_t kMaxBudget = std::size_t{1} << 62;
+    left_ = static_cast<std::int64_t>(std::min(bytes, kMaxBudget)) - static_cast<std::int64_t>(taken);
     refused_ = false;
   }
   /// Takes `bytes`; returns false and takes nothing if fewer are left.
@@ -95,7 +95,8 @@ class Bins {
   static constexpr std::uint32_t kBlockEntries = 62;
   static constexpr std::size_t kLineBytes = 64;
   struct alignas(kLineBytes) Block {
-    std::uint32_t count, next;
+    std::uint32_t count;  ///< used entries
+    std::uint32_t next;   ///< next block of the tile, or kNone
     std::uint32_t entries[kBlockEntries];
   };
   static_assert(sizeof(Block) == (2 + kBlockEntries) * sizeof(std::uint32_t));  // full lines, no padding
@@ -111,7 +112,7 @@ class Bins {
   void push(int tile, std::uint32_t draw, std::span<const std::uint32_t> ids) {
     TileList& list = list_of(tile);
     if (list.draw != draw) push_draw_marker(list, draw);
-    triangles_[index_of(tile)] += static_cast<std::uint32_t>(ids.size());
+    element_counts_[index_of(tile)] += static_cast<std::uint32_t>(ids.size());
     counts.entries += ids.size();
     while (!ids.empty()) {
       Block& block = block_with_room(list);
@@ -125,16 +126,16 @@ class Bins {
   void push_draw(int tile, std::uint32_t draw) {
     TileList& list = list_of(tile);
     push_draw_marker(list, draw);
-    ++triangles_[index_of(tile)];
+    ++element_counts_[index_of(tile)];
     ++counts.entries;
   }
   /// First block of a tile, or kNone. @pre !overflowed()
   std::uint32_t first(int tile) const { return list_of(tile).first; }
   /// Number of elements in a tile's bin; bitmaps and images count as one each. 0: the bin has no entries.
   /// @pre !overflowed()
-  std::uint32_t triangles(int tile) const { return *triangles_from(tile); }
-  /// The counts of triangles() for `tile` and the tiles after it.
-  const std::uint32_t* triangles_from(int tile) const { return triangles_.data() + index_of(tile); }
+  std::uint32_t element_count(int tile) const { return *element_counts_from(tile); }
+  /// element_count() of `tile` and of the tiles after it, as an array.
+  const std::uint32_t* element_counts_from(int tile) const { return element_counts_.data() + index_of(tile); }
   const Block& block(std::uint32_t index) const { return blocks_[index]; }
   /// Prefetches the memory that first() reads.
   void prefetch_first(int tile) const { __builtin_prefetch(&list_of(tile)); }
@@ -166,7 +167,9 @@ class Bins {
 
  private:
   struct TileList {
-    std::uint32_t first, last, draw;
+    std::uint32_t first;  // first block, or kNone
+    std::uint32_t last;   // last block, or kNone
+    std::uint32_t draw;   // current draw, or kNone
   };
   std::size_t index_of(int tile) const { return static_cast<std::size_t>(tile - first_tile_) & tile_mask_; }
   TileList& list_of(int tile) { return tile_lists_[index_of(tile)]; }
@@ -189,7 +192,7 @@ class Bins {
   std::vector<float> attributes_;  // attributes of the derived primitives, then padding
   std::vector<TileList> tile_lists_;
   // Element count per tile. A separate array, because index_batches() scans the counts of all batches.
-  std::vector<std::uint32_t> triangles_;
+  std::vector<std::uint32_t> element_counts_;
   std::vector<Block> blocks_;
   std::size_t used_ = 0;  // blocks
   int first_tile_ = 0;
@@ -214,9 +217,9 @@ class BinBatches {
   std::uint32_t count() const { return count_; }
   bool is_streamed() const { return fill_ != nullptr; }
   /// Number of elements in a tile's bins; bitmaps and images count as one each. 0 if streamed.
-  std::uint64_t triangles(int tile) const { return is_streamed() ? 0 : triangles_[index_of(tile)]; }
+  std::uint64_t element_count(int tile) const { return is_streamed() ? 0 : element_counts_[index_of(tile)]; }
   /// True if a tile has no entries; false if streamed.
-  bool known_empty(int tile) const { return !is_streamed() && triangles(tile) == 0; }
+  bool known_empty(int tile) const { return !is_streamed() && element_count(tile) == 0; }
   /// First batch from `batch` on that may have entries of a tile, or count().
   std::uint32_t next(int tile, std::uint32_t batch) const {
     if (is_streamed() || batch >= count_) return std::min(batch, count_);
@@ -242,7 +245,7 @@ class BinBatches {
   std::uint32_t count_ = 0;
   std::uint32_t words_ = 0;  // 64-bit words of batch_mask_ per tile
   int first_tile_ = 0;
-  std::vector<std::uint64_t> triangles_;   // element count per tile
+  std::vector<std::uint64_t> element_counts_;  // per tile
   std::vector<std::uint64_t> batch_mask_;  // per tile, one bit per batch: the batch has entries of the tile
   std::function<void(std::uint32_t)> fill_;
 };

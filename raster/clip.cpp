@@ -84,12 +84,12 @@ class UnclippedPolygon {
     const bool a_inside = side(transform_, plane, a) >= 0;
     const bool b_inside = side(transform_, plane, b) >= 0;
     if (a_inside == b_inside) return std::nullopt;
-    const InterpolatedVertex interpolated = a_inside ? interpolate(plane, a, b) : interpolate(plane, b, a);
-    return on_plane(plane, interpolated.is_accurate
-                               ? interpolated.vertex
-                               : exact_edge_intersection(transform_, plane, a_inside ? a : b,
-                                                         a_inside ? b : a, attribute_count_)
-                                     .value_or(interpolated.vertex));
+    const ClipVertex& inner = a_inside ? a : b;
+    const ClipVertex& outer = a_inside ? b : a;
+    const InterpolatedVertex interpolated = interpolate(plane, inner, outer);
+    if (interpolated.is_accurate) return on_plane(plane, interpolated.vertex);
+    return on_plane(plane, exact_edge_intersection(transform_, plane, inner, outer, attribute_count_)
+                               .value_or(interpolated.vertex));
   }
 
  private:
@@ -98,39 +98,40 @@ class UnclippedPolygon {
     bool is_accurate;
   };
   InterpolatedVertex interpolate(Outcode plane, const ClipVertex& inner, const ClipVertex& outer) const {
-    const bool from_inner =
-        max_abs(inner.position) <= max_abs(outer.position);  // start at the end that rounds less
+    // Start at the end that rounds less.
+    const bool from_inner = max_abs(inner.position) <= max_abs(outer.position);
     const ClipVertex& from = from_inner ? inner : outer;
     const ClipVertex& to = from_inner ? outer : inner;
     const double from_distance = distance(transform_, plane, from.position);
     const double to_distance = distance(transform_, plane, to.position);
     const double crossing = from_distance - to_distance;
-    const bool is_crossed =
-        (from_distance < 0) != (to_distance < 0);  // rounding may put both ends on one side
+    // Rounding may put both ends on one side.
+    const bool is_crossed = (from_distance < 0) != (to_distance < 0);
     const double t = is_crossed ? from_distance / crossing : 0;
-    const auto interpolate = [t](double a, double b) { return std::fma(t, b - a, a); };
+    const auto mix = [t](double a, double b) { return std::fma(t, b - a, a); };
     const ClipPosition &p = from.position, &q = to.position;
-    InterpolatedVertex interpolated{{.position = {interpolate(p.x, q.x), interpolate(p.y, q.y),
-                                                  interpolate(p.z, q.z), interpolate(p.w, q.w)}},
-                                    false};
+    InterpolatedVertex interpolated{
+        {.position = {mix(p.x, q.x), mix(p.y, q.y), mix(p.z, q.z), mix(p.w, q.w)}}, false};
     for (int k = 0; k < attribute_count_; ++k) {
       const float a = from.attributes[k], b = to.attributes[k];
       interpolated.vertex.attributes[k] =
-          std::clamp(static_cast<float>(interpolate(a, b)), std::min(a, b), std::max(a, b));
+          std::clamp(static_cast<float>(mix(a, b)), std::min(a, b), std::max(a, b));
     }
     // Error bound of the interpolated point: about 2^-50 of the magnitude of the terms of `from`, scaled by
     // the edge's length over the difference of the end points' plane distances; plus t times the bound of
     // `to`. If that magnitude is below 2^20 w, the error is below 2^-7 of the 1/256 pixel grid in a window of
     // 2^14 pixels.
-    double guard = transform_.guard_y;
-    if ((plane & (kBeforeNear | kBehindFar)) != 0) guard = 1;
-    else if ((plane & (kLeftOfGuardBand | kRightOfGuardBand)) != 0) guard = transform_.guard_x;
     const ClipPosition edge{q.x - p.x, q.y - p.y, q.z - p.z, q.w - p.w};
     const double magnitude = std::max(term_magnitude(transform_, from), t * term_magnitude(transform_, to));
     // Quotients of coordinates stay in the range of doubles; their products may not.
-    interpolated.is_accurate = is_crossed && magnitude / std::abs(crossing) * (1 + guard) <=
+    interpolated.is_accurate = is_crossed && magnitude / std::abs(crossing) * (1 + factor_of_w(plane)) <=
                                                  0x1p20 * (interpolated.vertex.position.w / max_abs(edge));
     return interpolated;
+  }
+  // Upper bound of the factor of w in the plane's equation.
+  double factor_of_w(Outcode plane) const {
+    if ((plane & (kBeforeNear | kBehindFar)) != 0) return 1;
+    return (plane & (kLeftOfGuardBand | kRightOfGuardBand)) != 0 ? transform_.guard_x : transform_.guard_y;
   }
   // Moves a vertex exactly onto a guard plane.
   ClipVertex on_plane(Outcode plane, ClipVertex v) const {
@@ -154,9 +155,7 @@ class UnclippedPolygon {
 
 // False for w = 0 (the polygon touches the eye plane in a point, which covers no pixel) and for coordinates
 // that overflowed.
-bool is_usable(const ClipPosition& p) {
-  return p.w > 0 && std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w);
-}
+bool is_usable(const ClipPosition& p) { return p.w > 0 && is_finite(p); }
 
 // Passes the vertices of the polygon's part inside one plane to `keep`.
 template <class Keep>
@@ -164,7 +163,9 @@ void clip_to_plane(const VertexTransform& transform, const UnclippedPolygon& unc
                    std::span<const ClipCorner> corners, const Keep& keep) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const ClipCorner &a = corners[i], &b = corners[i + 1 == corners.size() ? 0 : i + 1];
-    const int side_a = side(transform, plane, a.vertex), side_b = side(transform, plane, b.vertex);
+    const int side_a = side(transform, plane, a.vertex);
+    const int side_b = side(transform, plane, b.vertex);
+    // If `a` lies on the plane and `b` is outside, the edge that starts at `a` lies on the plane.
     if (side_a >= 0) keep(side_a > 0 || side_b >= 0 ? a : ClipCorner{a.vertex, -1, plane});
     if (side_a > 0 && side_b < 0) keep({unclipped.cut(plane, a, b.vertex, true), -1, plane});
     if (side_a < 0 && side_b > 0) keep({unclipped.cut(plane, a, b.vertex, false), a.edge, a.plane});

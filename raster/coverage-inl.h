@@ -22,7 +22,11 @@ namespace HWY_NAMESPACE {
 
 /// Copies the 32-bit edges of triangle i.
 HWY_INLINE void set_tile_edges32(Edges32& t, const TriangleGroup& g, int i) {
-  for (int k = 0; k < 3; ++k) t.a[k] = g.a[k][i], t.b[k] = g.b[k][i], t.e[k] = g.e[k][i];
+  for (int k = 0; k < 3; ++k) {
+    t.a[k] = g.a[k][i];
+    t.b[k] = g.b[k][i];
+    t.e[k] = g.e[k][i];
+  }
 }
 HWY_INLINE Edges32 tile_edges32(const TriangleGroup& g, int i) {
   Edges32 t;
@@ -30,9 +34,8 @@ HWY_INLINE Edges32 tile_edges32(const TriangleGroup& g, int i) {
   return t;
 }
 
-/// Edges of a triangle whose edges need 64 bits. An edge that contains the whole tile is replaced by 0; any
-/// other fits in 32 bits in the tile. Returns false if the tile is outside. `edges64` gets the undivided
-/// edges.
+/// Edges of a triangle that needs 64 bits. An edge that contains the whole tile is replaced by 0; any other
+/// fits in 32 bits in the tile. Returns false if the tile is outside. `edges64` gets the undivided edges.
 inline HWY_NOINLINE bool tile_edges64(const TriangleGroup& g, int i, int tile_x, int tile_y, int tile_size,
                                       Edges32& edges, Edges64& edges64) {
   bool touched = true;
@@ -121,7 +124,7 @@ HWY_INLINE std::int32_t min_over_blocks(std::int32_t first, std::int32_t a, std:
   return first + (4 * columns - 1) * std::min(a, 0) + (4 * rows - 1) * std::min(b, 0);
 }
 
-/// Enumerates the blocks of the bounds that the triangle may cover.
+/// Enumerates the blocks of the bounds x0 .. x1, y0 .. y1 (inclusive) that the triangle may cover.
 /// - Calls block.operator()<full>(bx, by, edges); `full` is true if all 16 pixels are inside.
 /// - If the function object has full_row(bx, by, count, edges of the first), runs of full blocks of a row go
 ///   there instead: up to one vector of blocks, or whole rows of the bounds if all blocks are full.
@@ -137,29 +140,29 @@ HWY_INLINE void for_each_block(const Edges32& t, const BlockOffsets& offsets, in
   const int rows = ((y1 - first_y) >> 2) + 1;
   const bool is_box = columns <= 4 && rows <= kBoxRows;
   const int row_shift = is_box ? 2 : std::countr_zero(static_cast<unsigned>(kLanes));
-  const int in_row = 1 << row_shift;  // lanes per row of blocks
+  const int lanes_per_row = 1 << row_shift;
   // Edge differences: from a block's first pixel centre to its maximum and minimum over the block, to the
   // blocks of the lanes, and to the next row of blocks.
   Int to_highest[3], to_lowest[3], to_lane[3], down[3];
-  bool is_whole = true;  // all blocks are full
+  bool all_full = true;
   for (int k = 0; k < 3; ++k) {
     to_highest[k] = splat(3 * (std::max(t.a[k], 0) + std::max(t.b[k], 0)));
     to_lowest[k] = splat(3 * (std::min(t.a[k], 0) + std::min(t.b[k], 0)));
     to_lane[k] = is_box ? hn::ShiftLeft<2>(hn::Load(kInt, offsets.edge[k]))
                         : hn::Mul(splat(4 * t.a[k]), hn::Load(kInt, kLaneNumbers));
     down[k] = splat(4 * t.b[k]);
-    is_whole &= min_over_blocks(t.at(k, first_x, first_y), t.a[k], t.b[k], columns, rows) >= 0;
+    all_full &= min_over_blocks(t.at(k, first_x, first_y), t.a[k], t.b[k], columns, rows) >= 0;
   }
-  for (int column = 0; column < columns; column += in_row) {
+  for (int column = 0; column < columns; column += lanes_per_row) {
     const int left = first_x + 4 * column;
     const std::uint32_t in_bounds =
-        is_box ? blocks_within(columns, rows) : (1u << std::min(columns - column, in_row)) - 1;
+        is_box ? blocks_within(columns, rows) : (1u << std::min(columns - column, lanes_per_row)) - 1;
     Int e[3];
     for (int k = 0; k < 3; ++k) e[k] = hn::Add(splat(t.at(k, left, first_y)), to_lane[k]);
     for (int row = 0; row < rows; row += is_box ? rows : 1) {
       const int top = first_y + 4 * row;
       std::uint32_t touched = in_bounds, inside = in_bounds;
-      if (!is_whole) {
+      if (!all_full) {
         const Int highest = hn::Or(hn::Or(hn::Add(e[0], to_highest[0]), hn::Add(e[1], to_highest[1])),
                                    hn::Add(e[2], to_highest[2]));
         const Int lowest = hn::Or(hn::Or(hn::Add(e[0], to_lowest[0]), hn::Add(e[1], to_lowest[1])),
@@ -174,19 +177,20 @@ HWY_INLINE void for_each_block(const Edges32& t, const BlockOffsets& offsets, in
       }
       while (touched != 0) {
         const int i = std::countr_zero(touched);
-        const int in_its_row = i & (in_row - 1);
-        const int bx = left + 4 * in_its_row, by = top + 4 * (i >> row_shift);
+        const int lane_in_row = i & (lanes_per_row - 1);
+        const int bx = left + 4 * lane_in_row, by = top + 4 * (i >> row_shift);
         BlockEdges edges{{start[0][i], start[1][i], start[2][i]}, &offsets};
         touched &= touched - 1;
         if ((inside >> i & 1) == 0) {
           block.template operator()<false>(bx, by, edges);
         } else if constexpr (requires { block.full_row(bx, by, 1, edges); }) {
-          const bool at_once = kLanes > 1 && is_whole;  // no gain with a single lane
-          const int count = at_once ? columns : std::min(std::countr_one(inside >> i), in_row - in_its_row);
-          const int last = at_once ? rows - 1 : 0;
+          const bool at_once = kLanes > 1 && all_full;  // no gain with a single lane
+          const int count =
+              at_once ? columns : std::min(std::countr_one(inside >> i), lanes_per_row - lane_in_row);
+          const int last_row = at_once ? rows - 1 : 0;
           for (int below = 0;; ++below, edges.step_down(t)) {
             block.full_row(bx, by + 4 * below, count, edges);
-            if (below == last) break;  // edges may overflow below the last row
+            if (below == last_row) break;  // edges may overflow below the last row
           }
           if (at_once) return;
           touched &= ~(((1u << count) - 1) << i);

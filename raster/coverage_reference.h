@@ -20,8 +20,8 @@ struct EdgeReference {
 
 struct TriangleReference {
   EdgeReference edge[3];  ///< edge k lies opposite vertex k
-  Exact area =
-      0;  ///< doubled area in (1/256 pixel)^2, never negative: the sum of the three edges at any point
+  /// Doubled area in (1/256 pixel)^2, never negative: the sum of the three edges at any point.
+  Exact area = 0;
 
   explicit TriangleReference(const WindowVertex (&v)[3]) {
     const auto cross = [](Exact ax, Exact ay, Exact bx, Exact by) { return ax * by - ay * bx; };

@@ -1,9 +1,15 @@
 // Depth keys of a triangle's pixels (framebuffer/format.h: keys compare as signed integers).
+// - Unorm: a plane in 64-bit fixed point, modulo 2^64. Sums are exact in any order, so the depth of a pixel
+//   does not depend on tiles or blocks, and overflow of steep gradients cancels inside the triangle.
+//   Gradients are computed in double, or as exact quotients for needles, where double is not accurate enough.
+// - float32: a plane of doubles from the anchor vertex, rounded once and clamped to the vertices' range.
 //
-// Unorm: a plane in 64-bit fixed point, modulo 2^64. Sums are exact in any order, so the depth of a pixel
-// does not depend on tiles or blocks, and overflow of steep gradients cancels inside the triangle. Gradients
-// are computed in double, or as exact quotients for needles, where double is not accurate enough. float32: a
-// plane of doubles from the anchor vertex, rounded once and clamped to the range of the vertices.
+// Depth types evaluate the plane of one triangle in a tile:
+// - key(): at one pixel.
+// - block(), step_right(), keys(): at the pixels of a 4x4 block, one chunk at a time. A Block is the plane's
+//   position at the block's first pixel.
+// - box(), block(box, i): at the blocks of a box, four per row.
+// - sample_origin(), step_to(), block(origin, step): at one sample of the pixels of a block.
 #if defined(TESSERA_RASTER_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_RASTER_DEPTH_INL_H_
 #undef TESSERA_RASTER_DEPTH_INL_H_
@@ -37,8 +43,9 @@ alignas(64) inline constexpr std::uint64_t kSecondRow[8] = {0, 0, 0, 0, ~0ull, ~
 /// unorm16, unorm24: planes of depth words in 32.32 fixed point. Depth words are at least 128 away from 0 and
 /// from 2^32 (the added half level), so rounding never wraps around. The key is the top bits of the word.
 struct UnormDepth {
-  std::uint64_t base, dx, dy;
-  int shift;
+  std::uint64_t base;                    // at the tile's first pixel
+  std::uint64_t dx, dy;                  // per pixel
+  int shift;                             // key = depth word >> shift
   alignas(64) std::uint64_t offset[16];  // from a block's first pixel to each of its pixels
 
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthFormat kind) {
@@ -47,6 +54,7 @@ struct UnormDepth {
     dx = g.fixed_dx[i];
     dy = g.fixed_dy[i];
   }
+  /// Computes `offset`, which keys() and box() need.
   HWY_INLINE void prepare_blocks() {
 #if HWY_TARGET == HWY_SCALAR
     for (std::uint64_t p = 0; p < 16; ++p) offset[p] = p % 4 * dx + p / 4 * dy;
@@ -54,17 +62,17 @@ struct UnormDepth {
     // kHalf lanes are one or two whole rows of the block.
     constexpr std::size_t kHalf = hn::MaxLanes(Uint64Tag());
     static_assert(kHalf == 4 || kHalf == 8);
-    const auto bit_of = [](const std::uint64_t(&bits)[8], std::uint64_t step)
-                            HWY_ATTR { return hn::And(hn::Load(kUint64, bits), hn::Set(kUint64, step)); };
-    const auto in_row = hn::Add(bit_of(kOddColumns, dx), bit_of(kRightColumns, dx + dx));
-    auto at = kHalf == 8 ? hn::Add(in_row, bit_of(kSecondRow, dy)) : in_row;
+    const auto masked = [](const std::uint64_t(&mask)[8], std::uint64_t step)
+                            HWY_ATTR { return hn::And(hn::Load(kUint64, mask), hn::Set(kUint64, step)); };
+    const auto in_row = hn::Add(masked(kOddColumns, dx), masked(kRightColumns, dx + dx));
+    auto at = kHalf == 8 ? hn::Add(in_row, masked(kSecondRow, dy)) : in_row;
     for (std::size_t p = 0; p < 16; p += kHalf) {
       hn::Store(at, kUint64, offset + p);
       at = hn::Add(at, hn::Set(kUint64, kHalf / 4 * dy));
     }
 #endif
   }
-  /// Difference from the tile's first pixel (or its sample) to pixel (x, y).
+  /// Difference of the plane from the tile's first pixel to pixel (x, y); the same for every sample.
   HWY_INLINE std::uint64_t step(int x, int y) const {
     return dx * static_cast<std::uint64_t>(std::int64_t{x}) +
            dy * static_cast<std::uint64_t>(std::int64_t{y});
@@ -73,7 +81,8 @@ struct UnormDepth {
   HWY_INLINE std::int32_t key(int x, int y) const {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(at(x, y) >> 32) >> shift);
   }
-  /// Value of the plane at a sample of the tile's first pixel.
+  /// Where block evaluation of one sample starts: the fixed-point value of the depth plane at this sample of
+  /// the tile's first pixel.
   using SampleOrigin = std::uint64_t;
   static HWY_INLINE SampleOrigin sample_origin(const TriangleGroup&, const SampleGroup& samples, int s, int i,
                                                SamplePosition, int, int) {
@@ -86,9 +95,8 @@ struct UnormDepth {
                                      (32 - depth_bits(kind))) -
            1;
   }
-  /// Depth at the first pixel of a block.
   struct Block {
-    hn::Vec<Uint64Tag> start;
+    hn::Vec<Uint64Tag> start;  // the plane at the block's first pixel, in all lanes
   };
   static HWY_INLINE Block block_at(std::uint64_t start) { return {hn::Set(kUint64, start)}; }
   HWY_INLINE Block block(int bx, int by) const { return block_at(at(bx, by)); }
@@ -107,10 +115,10 @@ struct UnormDepth {
   HWY_INLINE void step_right(Block& block) const {
     block.start = hn::Add(block.start, hn::Set(kUint64, 4 * dx));
   }
-  /// Step from the tile's first pixel to a block; block(sample, step) adds it to a sample's value.
+  /// Step from the tile's first pixel to a block; block(origin, step) adds it to the origin of a sample.
   HWY_INLINE Block step_to(int bx, int by) const { return block_at(step(bx, by)); }
-  static HWY_INLINE Block block(SampleOrigin sample, const Block& step) {
-    return {hn::Add(block_at(sample).start, step.start)};
+  static HWY_INLINE Block block(SampleOrigin origin, const Block& step) {
+    return {hn::Add(block_at(origin).start, step.start)};
   }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
 #if HWY_TARGET == HWY_SCALAR
@@ -141,7 +149,7 @@ struct Unorm32Depth : UnormDepth {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(clamped) ^ 0x80000000u);
   }
   HWY_INLINE std::int32_t key(int x, int y) const { return key_of(at(x, y)); }
-  // The keys of UnormDepth have no flipped bit.
+  // UnormDepth::nearest_key() does not flip the top bit.
   static std::int32_t nearest_key(const TriangleGroup& g, int i, DepthFormat kind) = delete;
   struct Block {
     std::uint64_t start;
@@ -149,7 +157,7 @@ struct Unorm32Depth : UnormDepth {
   HWY_INLINE Block block(int bx, int by) const { return {at(bx, by)}; }
   HWY_INLINE void step_right(Block& block) const { block.start += 4 * dx; }
   HWY_INLINE Block step_to(int bx, int by) const { return {step(bx, by)}; }
-  static HWY_INLINE Block block(SampleOrigin sample, const Block& step) { return {sample + step.start}; }
+  static HWY_INLINE Block block(SampleOrigin origin, const Block& step) { return {origin + step.start}; }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
     alignas(64) std::int32_t key[kLanes];
     for (int l = 0; l < kLanes; ++l) key[l] = key_of(block.start + offset[chunk * kLanes + l]);
@@ -162,7 +170,7 @@ struct Unorm32Depth : UnormDepth {
 struct Float32Depth {
   double z0;                // depth of the anchor vertex
   double dx, dy;            // per pixel
-  double first_x, first_y;  // from the anchor to the tile's first pixel centre, pixels
+  double first_x, first_y;  // from the anchor vertex to the centre of the tile's first pixel, pixels
   float low, high;          // range of the vertices' depths
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int tile_x, int tile_y, DepthFormat) {
     float z[3], at_anchor;
@@ -180,10 +188,13 @@ struct Float32Depth {
     first_y = first.y;
   }
   HWY_INLINE void prepare_blocks() {}
+  /// Where block evaluation of one sample starts: the vector from the anchor vertex to this sample of the
+  /// tile's first pixel, in pixels.
   struct SampleOrigin {
     double x, y;
   };
-  /// Vector from the anchor to a sample of the tile's first pixel, in pixels. Exact: 24 bits.
+  /// The vector from the anchor vertex of triangle i to a sample of the tile's first pixel. Exact: 24 bits.
+  /// @param at  offset of the sample from the pixel's centre; {0, 0} yields the vector to the centre
   static HWY_INLINE SampleOrigin from_anchor(const TriangleGroup& g, int i, SamplePosition at, int tile_x,
                                              int tile_y) {
     return {(tile_x * kSubpixelScale + kHalfPixel - (g.anchor_x[i] - at.x)) * (1.0 / 256),
@@ -206,7 +217,7 @@ struct Float32Depth {
     return bits;
   }
   struct Block {
-    double x, y;
+    double x, y;  // vector from the anchor vertex to the block's first pixel, pixels
   };
   HWY_INLINE Block block(int bx, int by) const { return {first_x + bx, first_y + by}; }
   struct Box {
@@ -220,8 +231,8 @@ struct Float32Depth {
   HWY_INLINE Block step_to(int bx, int by) const {
     return {static_cast<double>(bx), static_cast<double>(by)};
   }
-  static HWY_INLINE Block block(SampleOrigin sample, const Block& step) {
-    return {sample.x + step.x, sample.y + step.y};
+  static HWY_INLINE Block block(SampleOrigin origin, const Block& step) {
+    return {origin.x + step.x, origin.y + step.y};
   }
   HWY_INLINE Int keys(const Block& block, int chunk) const {
     const Doubles x = plus(to_doubles(block_columns(chunk)), block.x);

@@ -26,7 +26,8 @@ HWY_INLINE double slope_of(const TriangleGroup& g, int i) {
 /// two draws of the same triangle by exactly one level.
 struct OffsetUnormDepth : UnormDepth {
   int fraction_bits = kUnormFraction;
-  std::int64_t range_bias = 0, polygon_offset = 0;
+  std::int64_t range_bias = 0;
+  std::int64_t polygon_offset = 0;  // depth words
   std::uint32_t flip = 0;
   HWY_INLINE void set_up(const TriangleGroup& g, int i, int, int, DepthFormat kind) {
     shift = 32 - depth_bits(kind);

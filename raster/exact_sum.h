@@ -17,6 +17,7 @@ class ExactSum {
     if (count_ == kMaxParts) compress();
     int kept = 0;
     for (int i = 0; i < count_; ++i) {
+      // The sum and its exact rounding error.
       const double sum = term + parts_[i];
       const double term_part = sum - parts_[i];
       const double error = (parts_[i] - (sum - term_part)) + (term - term_part);
@@ -66,7 +67,8 @@ class ExactSum {
     double sum = parts_[count_ - 1];
     int bottom = count_ - 1;
     for (int i = count_ - 2; i >= 0; --i) {
-      const double larger = sum + parts_[i], rest = parts_[i] - (larger - sum);
+      const double larger = sum + parts_[i];
+      const double rest = parts_[i] - (larger - sum);
       sum = larger;
       if (rest == 0) continue;
       parts_[bottom--] = larger;
@@ -74,7 +76,8 @@ class ExactSum {
     }
     int top = 0;
     for (int i = bottom + 1; i < count_; ++i) {
-      const double larger = parts_[i] + sum, rest = sum - (larger - parts_[i]);
+      const double larger = parts_[i] + sum;
+      const double rest = sum - (larger - parts_[i]);
       sum = larger;
       if (rest != 0) parts_[top++] = rest;
     }

@@ -18,13 +18,17 @@ ExactVertex::ExactVertex(const ClipPosition& position, int exponent) {
 ExactSum ExactVertex::distance(const VertexTransform& t, Outcode plane) const {
   const auto& [x, y, z, w] = coordinates_;
   ExactSum sum;
+  const auto add = [&](const ExactSum& coordinate, double sign, double factor_of_w) {
+    sum.add_product(coordinate, sign);
+    sum.add_product(w, factor_of_w);
+  };
   switch (plane) {
-    case kLeftOfGuardBand: sum.add_product(x, 1), sum.add_product(w, t.guard_x); break;
-    case kRightOfGuardBand: sum.add_product(x, -1), sum.add_product(w, t.guard_x); break;
-    case kBelowGuardBand: sum.add_product(y, 1), sum.add_product(w, t.guard_y); break;
-    case kAboveGuardBand: sum.add_product(y, -1), sum.add_product(w, t.guard_y); break;
-    case kBeforeNear: sum.add_product(z, t.reversed ? -1 : 1), sum.add_product(w, 1); break;
-    case kBehindFar: sum.add_product(z, t.reversed ? 1 : -1), sum.add_product(w, t.reversed ? 0 : 1); break;
+    case kLeftOfGuardBand: add(x, 1, t.guard_x); break;
+    case kRightOfGuardBand: add(x, -1, t.guard_x); break;
+    case kBelowGuardBand: add(y, 1, t.guard_y); break;
+    case kAboveGuardBand: add(y, -1, t.guard_y); break;
+    case kBeforeNear: add(z, t.reversed ? -1 : 1, 1); break;
+    case kBehindFar: add(z, t.reversed ? 1 : -1, t.reversed ? 0 : 1); break;
     default: sum.add_product(w, 1); break;
   }
   return sum;

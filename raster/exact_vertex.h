@@ -16,7 +16,8 @@ class ExactVertex {
   /// A clip-space position, times 2^exponent.
   ExactVertex(const ClipPosition& position, int exponent);
 
-  const ExactSum& coordinate(std::size_t i) const { return coordinates_[i]; }  ///< 0 to 3: x, y, z, w
+  /// @param i  0 to 3: x, y, z, w
+  const ExactSum& coordinate(std::size_t i) const { return coordinates_[i]; }
   /// Signed distance from a plane, up to scale; negative outside.
   ExactSum distance(const VertexTransform& transform, Outcode plane) const;
   /// Rounded coordinates; relative error of each below 2^-52.

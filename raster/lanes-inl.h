@@ -27,7 +27,7 @@ inline constexpr FloatTag kFloat{};
 inline constexpr IntTag kInt{};
 inline constexpr UintTag kUint{};
 inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
-inline constexpr int kChunksPerBlock = 16 / kLanes;
+inline constexpr int kChunksPerBlock = 16 / kLanes;  // a chunk is kLanes consecutive pixels of a block
 
 HWY_INLINE Float splat(float value) { return hn::Set(kFloat, value); }
 HWY_INLINE Int splat(std::int32_t value) { return hn::Set(kInt, value); }
@@ -66,8 +66,8 @@ HWY_INLINE Float lesser_of(Float a, Float b) {
 #endif
 }
 
-/// Rounds towards zero. @pre the result fits in 32 bits; Highway's ConvertTo spends three more instructions
-/// on those that do not.
+/// Rounds towards zero. Highway's ConvertTo needs three more instructions, for results beyond 32 bits.
+/// @pre the result fits in 32 bits
 HWY_INLINE Int truncate(Float v) {
 #if HWY_TARGET == HWY_AVX2
   return Int{_mm256_cvttps_epi32(v.raw)};
@@ -79,18 +79,19 @@ HWY_INLINE Int truncate(Float v) {
 }
 
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
-/// Eight lane indices in general registers, for scalar loads.
+/// Eight lane indices in general registers, two in each, for scalar loads.
 struct LaneIndices {
-  std::uint64_t two[4];
+  std::uint64_t pair[4];
   explicit HWY_INLINE LaneIndices(__m256i index) {
-    const __m128i low = _mm256_castsi256_si128(index), high = _mm256_extracti128_si256(index, 1);
-    two[0] = static_cast<std::uint64_t>(_mm_cvtsi128_si64(low)),
-    two[1] = static_cast<std::uint64_t>(_mm_extract_epi64(low, 1));
-    two[2] = static_cast<std::uint64_t>(_mm_cvtsi128_si64(high)),
-    two[3] = static_cast<std::uint64_t>(_mm_extract_epi64(high, 1));
+    const __m128i low = _mm256_castsi256_si128(index);
+    const __m128i high = _mm256_extracti128_si256(index, 1);
+    pair[0] = static_cast<std::uint64_t>(_mm_cvtsi128_si64(low));
+    pair[1] = static_cast<std::uint64_t>(_mm_extract_epi64(low, 1));
+    pair[2] = static_cast<std::uint64_t>(_mm_cvtsi128_si64(high));
+    pair[3] = static_cast<std::uint64_t>(_mm_extract_epi64(high, 1));
   }
   HWY_INLINE std::size_t operator[](int lane) const {
-    return lane % 2 == 0 ? two[lane / 2] & 0xffffffffu : two[lane / 2] >> 32;
+    return lane % 2 == 0 ? pair[lane / 2] & 0xffffffffu : pair[lane / 2] >> 32;
   }
 };
 #endif
@@ -108,13 +109,11 @@ HWY_INLINE Int load_words(const std::uint32_t* words, Int index) {
 
 /// One bit per lane, lane 0 lowest.
 template <class Tag, class Mask>
-HWY_INLINE std::uint32_t mask_bits(Tag tag, Mask mask) {
+HWY_INLINE std::uint32_t mask_bits([[maybe_unused]] Tag tag, Mask mask) {
 #if HWY_TARGET == HWY_SCALAR
-  (void)tag;
   return mask.bits != 0;
 #elif HWY_TARGET == HWY_AVX3
   static_assert(hn::MaxLanes(Tag()) >= 8);  // the mask has no bits beyond the lanes
-  (void)tag;
   return mask.raw;
 #else
   std::uint8_t bytes[8] = {};

@@ -31,9 +31,11 @@ struct LinePoints {
 
 /// Vector form of in_diamond().
 HWY_INLINE auto are_in_diamonds(const LinePoints& p) {
-  const Int within = splat(kSubpixelScale - 1), half = splat(kHalfPixel), one = splat(1);
-  const Int dx = hn::Sub(hn::And(hn::Sub(p.x, one), within), hn::Sub(half, one));
-  const Int dy = hn::Sub(hn::And(p.y, within), half);
+  const Int within_pixel = splat(kSubpixelScale - 1);
+  const Int half = splat(kHalfPixel);
+  const Int one = splat(1);
+  const Int dx = hn::Sub(hn::And(hn::Sub(p.x, one), within_pixel), hn::Sub(half, one));
+  const Int dy = hn::Sub(hn::And(p.y, within_pixel), half);
   const Int distance = hn::Add(hn::Abs(dx), hn::Abs(dy));
   return hn::Or(hn::Gt(half, distance), hn::And(hn::Eq(distance, half), hn::Gt(dx, hn::Zero(kInt))));
 }
@@ -57,8 +59,9 @@ class LineSteps {
     const int high = x_major ? window.y1 : window.x1;
     for (int step = from; step < to; step += kLanes) {
       const Int major = hn::Iota(kInt, step);
-      const Int base = truncate(floor(times(plus(times(to_doubles(major), rise_[i]), start_[i]), per_[i])));
-      // Range of the offset across the line, upwards (x-major) or to the right, that may be inside.
+      const Int base =
+          truncate(floor(times(plus(times(to_doubles(major), rise_[i]), start_[i]), reciprocal_[i])));
+      // Pixels k across the line, upwards (x-major) or to the right, that may be inside.
       int k0 = 0, k1 = 0;
       if (width_ > 1) {
         alignas(64) std::int32_t bases[kLanes];
@@ -86,19 +89,21 @@ class LineSteps {
     const auto steep = hn::Gt(hn::Abs(dy), hn::Abs(dx));
     for (LinePoints* p : {&a, &b})
       *p = {hn::Sub(p->x, hn::IfThenElseZero(steep, aside)), hn::Add(p->y, hn::IfThenZeroElse(steep, aside))};
-    const Int along = hn::IfThenElse(steep, dy, dx), across = hn::IfThenElse(steep, dx, dy);
+    const Int along = hn::IfThenElse(steep, dy, dx);
+    const Int across = hn::IfThenElse(steep, dx, dy);
     const auto forward = hn::Gt(along, zero);
     // The rule moves the ends by -e along x and by +e^2 along y.
     const Int moved = hn::IfThenZeroElse(steep, one);
     const Int from = hn::IfThenElse(steep, a.y, a.x);
     const Int to = hn::IfThenElse(steep, b.y, b.x);
-    const Int from_moved = hn::Sub(from, moved), to_moved = hn::Sub(to, moved);
+    const Int from_moved = hn::Sub(from, moved);
+    const Int to_moved = hn::Sub(to, moved);
     const Int step = hn::IfThenElse(forward, one, splat(-1));
-    const auto is_before = [&](Int major) HWY_ATTR {
+    const auto is_before_center = [&](Int major) HWY_ATTR {
       return hn::Gt(splat(kHalfPixel), hn::And(major, splat(kSubpixelScale - 1)));
     };
-    const auto skips_first = hn::AndNot(are_in_diamonds(a), hn::Xor(forward, is_before(from_moved)));
-    const auto skips_last = hn::Or(are_in_diamonds(b), hn::Not(hn::Xor(forward, is_before(to_moved))));
+    const auto skips_first = hn::AndNot(are_in_diamonds(a), hn::Xor(forward, is_before_center(from_moved)));
+    const auto skips_last = hn::Or(are_in_diamonds(b), hn::Not(hn::Xor(forward, is_before_center(to_moved))));
     const Int begin =
         hn::Add(hn::ShiftRight<kSubpixelBits>(from_moved), hn::IfThenElseZero(skips_first, step));
     const Int end = hn::Sub(hn::ShiftRight<kSubpixelBits>(to_moved), hn::IfThenElseZero(skips_last, step));
@@ -117,15 +122,17 @@ class LineSteps {
     const Doubles tie = plus(to_doubles(hn::IfThenElseZero(tie_goes_down, splat(-1))), 0.5);
     store(plus(plus(at_first, to_center), tie), start_ + i);
     store(times(to_doubles(slope), kSubpixelScale), rise_ + i);
-    store(reciprocals(scaled), per_ + i);
+    store(reciprocals(scaled), reciprocal_ + i);
   }
 
   int width_ = 1;
   alignas(64) std::int32_t x_major_[kGroupSize];  // -1 or 0
   // Steps along the major axis, inclusive, ascending; first > last: no pixels.
   alignas(64) std::int32_t first_[kGroupSize], last_[kGroupSize];
-  // Minor coordinate of a step: floor((start + step rise) per).
-  alignas(64) double start_[kGroupSize], rise_[kGroupSize], per_[kGroupSize];
+  // Minor coordinate of a step: floor((start + step rise) reciprocal).
+  alignas(64) double start_[kGroupSize];
+  alignas(64) double rise_[kGroupSize];
+  alignas(64) double reciprocal_[kGroupSize];  // 1 / (256 length)
 };
 
 }  // namespace HWY_NAMESPACE

@@ -40,11 +40,16 @@ class LineWalk {
   constexpr LineWalk(LinePoint a, LinePoint b, int width = 1) : width_(width) {
     const std::int32_t dx = b.x - a.x, dy = b.y - a.y;
     x_major_ = std::abs(dx) >= std::abs(dy);
-    // The lowest (x-major) or leftmost pixel of each step is that of a line of width 1, shifted by (width -
-    // 1) / 2.
+    // The lowest (x-major) or leftmost pixel of each step is that of a line of width 1, shifted by half of
+    // width - 1.
     const std::int32_t aside = kHalfPixel * (width - 1);
-    (x_major_ ? a.y : a.x) += x_major_ ? aside : -aside;
-    (x_major_ ? b.y : b.x) += x_major_ ? aside : -aside;
+    if (x_major_) {
+      a.y += aside;
+      b.y += aside;
+    } else {
+      a.x -= aside;
+      b.x -= aside;
+    }
     const std::int32_t along = x_major_ ? dx : dy;
     const std::int32_t across = x_major_ ? dy : dx;
     forward_ = along > 0;
@@ -53,15 +58,15 @@ class LineWalk {
     start_major_ = x_major_ ? a.x : a.y;
     start_minor_ = x_major_ ? a.y : a.x;
     if (along == 0) return;
+    const std::int32_t end_major = x_major_ ? b.x : b.y;
+    const bool starts_in_near_half = is_before_center(start_major_) == forward_;
+    const bool ends_in_near_half = is_before_center(end_major) == forward_;
+    const int step = forward_ ? 1 : -1;
     first_ = pixel_of(start_major_);
-    if (!(forward_ ? is_before_center(start_major_) : !is_before_center(start_major_)) && !in_diamond(a))
-      first_ += forward_ ? 1 : -1;
-    const std::int32_t end = x_major_ ? b.x : b.y;
-    last_ = pixel_of(end);
-    if ((forward_ ? is_before_center(end) : !is_before_center(end)) || in_diamond(b))
-      last_ += forward_ ? -1 : 1;
-    if (forward_ ? first_ > last_ : first_ < last_) return;
-    empty_ = false;
+    last_ = pixel_of(end_major);
+    if (!starts_in_near_half && !in_diamond(a)) first_ += step;
+    if (ends_in_near_half || in_diamond(b)) last_ -= step;
+    empty_ = forward_ ? first_ > last_ : first_ < last_;
   }
 
   constexpr bool empty() const { return empty_; }
@@ -84,14 +89,24 @@ class LineWalk {
         std::int64_t{start_minor_} * length_ +
         std::int64_t{rise_} * (std::int64_t{begin} * kSubpixelScale + kHalfPixel - start_major_) -
         (tie_goes_down() ? 1 : 0);
-    std::int64_t minor = numerator / divisor, rest = numerator % divisor;
-    if (rest < 0) rest += divisor, --minor;
+    std::int64_t minor = numerator / divisor;
+    std::int64_t rest = numerator % divisor;
+    if (rest < 0) {
+      rest += divisor;
+      --minor;
+    }
     const std::int64_t change = std::int64_t{rise_} * kSubpixelScale * step;  // |change| <= divisor
     for (int i = 0, major = begin; i < count; ++i, major += step) {
       draw_step(rect, major, static_cast<int>(minor), pixel);
       rest += change;
-      if (rest >= divisor) rest -= divisor, ++minor;
-      if (rest < 0) rest += divisor, --minor;
+      if (rest >= divisor) {
+        rest -= divisor;
+        ++minor;
+      }
+      if (rest < 0) {
+        rest += divisor;
+        --minor;
+      }
     }
   }
 

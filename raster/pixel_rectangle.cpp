@@ -58,7 +58,8 @@ std::int32_t texel_at(double start, double zoom, int count, double position) {
   int low = 0, high = count;
   while (high - low > 1) {
     const int middle = low + (high - low) / 2;
-    (passed(middle) ? low : high) = middle;
+    if (passed(middle)) low = middle;
+    else high = middle;
   }
   return low;
 }

@@ -10,7 +10,7 @@
 namespace tessera::detail {
 
 struct PixelRectangle {
-  double x = 0, y = 0;  ///< window coordinates of the first column's and the bottom row's outer corner
+  double x = 0, y = 0;            ///< window coordinates of the outer corner of the bottom row's first texel
   double zoom_x = 1, zoom_y = 1;  ///< pixels per texel; negative: to the left or downwards from the corner
   int width = 0, height = 0;      ///< texels
   const std::uint8_t* top_row = nullptr;
@@ -26,8 +26,9 @@ struct PixelRectangle {
 
 inline constexpr std::int32_t kNoTexel = -1;
 
-/// Index of the texel, of `count`, that contains `position`, or kNoTexel. Texel n covers [start + zoom n,
-/// start + zoom (n + 1)); if zoom is negative, [start + zoom (n + 1), start + zoom n). @pre all are finite
+/// Index of the texel, of `count`, that contains `position`, or kNoTexel. Texel n covers
+/// [start + zoom n, start + zoom (n + 1)); if zoom is negative, [start + zoom (n + 1), start + zoom n).
+/// @pre all arguments are finite
 std::int32_t texel_at(double start, double zoom, int count, double position);
 
 /// Bounds of the frame buffer's pixels with a sample that hits a texel. The first and last row and column

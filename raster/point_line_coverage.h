@@ -89,8 +89,9 @@ class LineRectangle {
 
   bool covers(LinePoint p) const {
     const std::int64_t forward = along(p), aside = across(p);
-    const bool is_beside = aside < -half_ || aside > half_;
-    if (forward < 0 || forward > squared_length_ || is_beside || squared_length_ == 0) return false;
+    const bool is_beyond_ends = forward < 0 || forward > squared_length_;
+    const bool is_beyond_sides = aside < -half_ || aside > half_;
+    if (is_beyond_ends || is_beyond_sides || squared_length_ == 0) return false;
     // A left side has the inside to its right, a top side has it below.
     const auto owns = [](std::int64_t inside_x, std::int64_t inside_y) {
       return inside_x > 0 || (inside_x == 0 && inside_y > 0);

@@ -22,9 +22,10 @@ double slope_of(DepthFormat kind, const WindowVertex& a, const WindowVertex& b, 
                 double area) {
   const double z = depth_of(kind, a.z);
   const double to_b = depth_of(kind, b.z) - z, to_c = depth_of(kind, c.z) - z;
-  const double by_x = to_b * (c.y - a.y) - to_c * (b.y - a.y);
-  const double by_y = to_c * (b.x - a.x) - to_b * (c.x - a.x);
-  return std::max(std::abs(by_x), std::abs(by_y)) * kSubpixelScale / area;
+  // Gradient times the area, per 1/256 pixel.
+  const double dx = to_b * (c.y - a.y) - to_c * (b.y - a.y);
+  const double dy = to_c * (b.x - a.x) - to_b * (c.x - a.x);
+  return std::max(std::abs(dx), std::abs(dy)) * kSubpixelScale / area;
 }
 
 std::uint8_t outcodes_of(const BinDraw& draw, std::uint32_t triangle) {
@@ -42,6 +43,7 @@ WindowPolygon in_window(const BinDraw& draw, std::uint32_t triangle) {
                        draw.vertices[vertex_index<3>(draw, triangle, 2)]);
 }
 
+// Slope of a triangle; of its largest part if it is clipped.
 double slope_of(DepthFormat kind, const WindowPolygon& triangle) {
   double slope = 0, largest = 0;
   for (const WindowPolygon::Corners& corner : triangle.triangles()) {
@@ -56,6 +58,7 @@ double slope_of(DepthFormat kind, const WindowPolygon& triangle) {
   return slope;
 }
 
+// Offset of the polygon of triangles [first, last).
 double offset_of(const BinDraw& draw, float factor, float units, std::size_t first, std::size_t last) {
   const DepthFormat kind = draw.transform->depth;
   double slope = 0, largest_area = 0, largest_depth = 0;
@@ -81,9 +84,9 @@ void offset_polygons(const BinDraw& draw, std::size_t per_polygon, float factor,
        begin += per_polygon) {
     if (draw.facing == nullptr) {
       const std::uint8_t outcodes = outcodes_of(draw, static_cast<std::uint32_t>(begin));
-      const bool is_cut = outcodes != 0 && (outcodes & kNonFinite) == 0;
-      offsets[begin] = is_cut ? offset_of(draw, factor, units, begin, begin + 1)
-                              : std::numeric_limits<double>::quiet_NaN();
+      const bool is_clipped = outcodes != 0 && (outcodes & kNonFinite) == 0;
+      offsets[begin] = is_clipped ? offset_of(draw, factor, units, begin, begin + 1)
+                                  : std::numeric_limits<double>::quiet_NaN();
     } else {
       std::fill_n(offsets + begin, per_polygon,
                   draw.facing[begin] != Facing::dropped

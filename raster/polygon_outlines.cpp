@@ -9,15 +9,15 @@ namespace {
 
 /// Sets `boundary` to the polygon's boundary after clipping. Returns true if the polygon was clipped without
 /// being entirely outside a plane.
-bool set_up(ClippedBoundary& boundary, const BinDraw& draw, std::uint32_t first_triangle) {
+bool set_up_boundary(ClippedBoundary& boundary, const BinDraw& draw, std::uint32_t first_triangle) {
   auto& [vertices, window, clipper] = boundary;
   const std::size_t corners = draw.modes->triangles + 2;
   const std::uint32_t* const polygon =
       draw.modes->boundary + first_triangle / draw.modes->triangles * corners;
   vertices.clear();
   window.clear();
-  std::uint8_t outcodes = 0;                          // outcodes of any vertex
-  std::uint8_t shared = draw.any_outcode ? 0xff : 0;  // outcodes of all vertices
+  std::uint8_t outcodes = 0;                          // bits set at any vertex
+  std::uint8_t shared = draw.any_outcode ? 0xff : 0;  // bits set at all vertices
   for (std::size_t i = 0; i < corners; ++i) {
     if (draw.any_outcode) {
       outcodes |= draw.outcodes[polygon[i]];
@@ -42,7 +42,7 @@ void add_corner(Bins& bins, const BinDraw& draw, DerivedPrimitive& derived, int 
 
 // Bin the boundary's edges, or its corners, as derived primitives of triangle `source`. Return true if one
 // was binned.
-bool bin_lines(Bins& bins, const TileGrid& grid, const BinDraw& draw, const ClippedBoundary& boundary,
+bool bin_edges(Bins& bins, const TileGrid& grid, const BinDraw& draw, const ClippedBoundary& boundary,
                std::uint32_t source) {
   bool any = false;
   for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
@@ -74,12 +74,14 @@ void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::ui
                   std::uint32_t last, InstructionSet isa) {
   const PolygonModes& modes = *draw.modes;
   const auto per_polygon = static_cast<std::uint32_t>(modes.triangles);
-  BinDraw filled = draw, lines = draw, corners = draw;
+  BinDraw filled = draw;
+  BinDraw lines = draw;
+  BinDraw corners = draw;
   filled.draw = modes.draw[static_cast<int>(PolygonMode::fill)];
   lines.draw = modes.draw[static_cast<int>(PolygonMode::line)];
-  lines.size = modes.line_width;
+  lines.point_line_size = modes.line_width;
   corners.draw = modes.draw[static_cast<int>(PolygonMode::point)];
-  corners.size = modes.point_size;
+  corners.point_line_size = modes.point_size;
   BinCounts& counts = bins.counts;
   for (std::uint32_t t = (first + per_polygon - 1) / per_polygon * per_polygon; t < last; t += per_polygon) {
     const Facing facing = draw.facing[t];
@@ -93,10 +95,11 @@ void bin_polygons(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::ui
       bin_triangles(bins, grid, filled, t, t + per_polygon, isa);
       continue;
     } else {
-      if (set_up(bins.boundary, draw, t)) counts.clipped += per_polygon;
-      const bool is_visible = mode == PolygonMode::line ? bin_lines(bins, grid, lines, bins.boundary, t)
+      if (set_up_boundary(bins.boundary, draw, t)) counts.clipped += per_polygon;
+      const bool is_visible = mode == PolygonMode::line ? bin_edges(bins, grid, lines, bins.boundary, t)
                                                         : bin_corners(bins, grid, corners, bins.boundary, t);
-      (is_visible ? counts.binned : counts.outside) += per_polygon;
+      if (is_visible) counts.binned += per_polygon;
+      else counts.outside += per_polygon;
     }
     counts.triangles_in += per_polygon;
   }

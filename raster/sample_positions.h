@@ -28,8 +28,8 @@ inline constexpr SamplePosition kEightSamples[8] = {
 
 /// Positions of 4 or 8 samples; one at the centre for any other number.
 ///
-/// A triangle at a sample equals the triangle, moved by the negative offset, at the centre. Samples therefore
-/// use the coverage and depth of centres, and are as exact.
+/// Coverage and depth at a sample are those at the pixel's centre of the triangle moved by the negative
+/// offset. Samples therefore use the arithmetic of centres and are as exact.
 constexpr const SamplePosition* sample_positions(int samples) {
   if (samples == 4) return kFourSamples;
   return samples == 8 ? kEightSamples : kCenterSample;

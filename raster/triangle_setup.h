@@ -19,7 +19,7 @@ inline constexpr int kUnorm32Fraction = 30;
 inline constexpr std::int64_t kUnorm32RangeBias = std::int64_t{1} << 32;
 // Planes are biased by a bound of their rounding error, so that at no pixel they fall below the smallest of
 // the vertices' depth words, which may be the lower end of a level. Above the largest there is room for bias
-// and error. 2^-19 of a depth word suffices for nearly all triangles.
+// and error. A bias of 2^-19 depth words suffices for nearly all triangles.
 inline constexpr std::int64_t kUnormRoundingBias = std::int64_t{1} << (kUnormFraction - 19);
 inline constexpr std::int64_t kUnorm32RoundingBias = std::int64_t{1} << (kUnorm32Fraction - 19);
 
@@ -28,33 +28,47 @@ inline constexpr std::int64_t kUnorm32RoundingBias = std::int64_t{1} << (kUnorm3
 /// weights is not 0.
 inline constexpr float kMinWeight = 0x1p-64f;
 
-/// Edge k, and index k of its fields, lies opposite vertex k. Edges are positive inside for both windings.
+/// Triangles of a group in a tile. "The tile's first pixel" is its top left one; pixel coordinates count from
+/// it. Edge k, index k of its fields, lies opposite vertex k. Edges are positive inside for both windings.
 struct TriangleGroup {
   int count = 0;
-  // Input: vertices.
+
+  // Vertices: the input of triangle setup.
   alignas(64) std::int32_t x[3][kGroupSize], y[3][kGroupSize];  ///< raster space, 1/256 pixel
   alignas(64) std::uint32_t z[3][kGroupSize];                   ///< depth words
   alignas(64) float rw[3][kGroupSize];                          ///< 1/w
-  // Edges at pixel centres, divided by 256 and rounded down, including the bias of the fill rule:
-  // E(x, y) = e + a x + b y, x and y in pixels from the tile's first. Exact for triangles with 32-bit edges.
-  alignas(64) std::int32_t a[3][kGroupSize], b[3][kGroupSize], e[3][kGroupSize];
-  /// The exact edge without the bias is 256 E + edge_fraction; 0 .. 256.
+
+  // Edge functions at pixel centres, plus the bias of the fill rule, divided by 256 and rounded down:
+  // E(x, y) = e + a x + b y at pixel (x, y). Exact for triangles with 32-bit edges.
+  alignas(64) std::int32_t a[3][kGroupSize];
+  alignas(64) std::int32_t b[3][kGroupSize];
+  alignas(64) std::int32_t e[3][kGroupSize];
+  /// The exact edge function without the bias is 256 E + edge_fraction; 0 .. 256.
   alignas(64) float edge_fraction[3][kGroupSize];
-  alignas(64) std::int32_t flip[kGroupSize];                     ///< -1 if signed_area is negative, else 0
-  alignas(64) double signed_area[kGroupSize], area[kGroupSize];  ///< doubled area, exact
-  // Pixel bounds in the tile, inclusive.
+  alignas(64) std::int32_t flip[kGroupSize];  ///< -1: signed_area is negative, a and b are negated; else 0
+
+  alignas(64) double signed_area[kGroupSize];  ///< doubled area, exact
+  alignas(64) double area[kGroupSize];         ///< |signed_area|
+  // Bounds: first and last pixel in the tile, inclusive.
   alignas(64) std::int32_t x0[kGroupSize], y0[kGroupSize], x1[kGroupSize], y1[kGroupSize];
   alignas(64) std::int32_t needs_edges64[kGroupSize];  ///< 1: edges do not fit in 32 bits
-  alignas(64) std::int32_t affine[kGroupSize];         ///< 1: all weights are affine, 1/w plays no part
-  // Depth planes: float32 in double, unorm in fixed point modulo 2^64 with the value at the tile's first
-  // pixel; see depth-inl.h. The anchor is the topmost vertex, and the leftmost of several, so that rounding
-  // does not depend on the order of the vertices.
-  alignas(64) std::int32_t anchor_x[kGroupSize], anchor_y[kGroupSize];
-  alignas(64) std::uint32_t anchor_z[kGroupSize];
+  alignas(64) std::int32_t affine[kGroupSize];  ///< 1: weights are barycentric coordinates, without 1/w
+
+  // Depth planes; see depth-inl.h. The anchor is the topmost vertex, and the leftmost of several, so that
+  // rounding does not depend on the order of the vertices.
+  alignas(64) std::int32_t anchor_x[kGroupSize], anchor_y[kGroupSize];  ///< raster space, 1/256 pixel
+  alignas(64) std::uint32_t anchor_z[kGroupSize];                       ///< depth word
+  /// Gradients per pixel, in depth words (unorm) or in depth (float32).
   alignas(64) double depth_dx[kGroupSize], depth_dy[kGroupSize];
-  alignas(64) std::uint64_t fixed_dx[kGroupSize], fixed_dy[kGroupSize], fixed_base[kGroupSize];
+  // Unorm planes in fixed point modulo 2^64: steps per pixel, and the value at the tile's first pixel.
+  alignas(64) std::uint64_t fixed_dx[kGroupSize], fixed_dy[kGroupSize];
+  alignas(64) std::uint64_t fixed_base[kGroupSize];
+
   // Weights, see set_up_weights().
-  alignas(64) float scale[3][kGroupSize], shift[3][kGroupSize], unit_scale[3][kGroupSize];
+  alignas(64) float scale[3][kGroupSize];       ///< per unit of E
+  alignas(64) float shift[3][kGroupSize];       ///< weight at E = 0
+  alignas(64) float unit_scale[3][kGroupSize];  ///< per unit of the undivided edge function
+
   std::uint32_t mask = 0;  ///< triangles with a pixel in the tile
   /// Triangles of `mask` whose error bound of unorm depth exceeds the rounding bias; their plane gets
   /// extra_bias.
@@ -64,15 +78,14 @@ struct TriangleGroup {
   std::uint64_t extra_bias[kGroupSize];  ///< set for triangles of extra_bias_mask
 };
 
-/// Per-sample part of a group: edges, and unorm depth planes at the tile's first pixel.
+/// Per-sample part of a group. Samples share the steps a, b, fixed_dx and fixed_dy of TriangleGroup.
 struct SampleGroup {
   alignas(64) std::int32_t max_edge[3][kGroupSize];                 ///< largest e of all samples
   alignas(64) std::int32_t edge_delta[kMaxSamples][3][kGroupSize];  ///< e of the sample minus max_edge; <= 0
-  alignas(64) std::uint64_t fixed_base[kMaxSamples][kGroupSize];
+  alignas(64) std::uint64_t fixed_base[kMaxSamples][kGroupSize];    ///< unorm plane at the tile's first pixel
 };
 
-/// The edges of one triangle in one tile, in 32 bits: exact at every pixel of the triangle's bounds in the
-/// tile.
+/// The edges of one triangle in one tile, in 32 bits. Exact at every pixel of its bounds in the tile.
 struct Edges32 {
   std::int32_t a[4], b[4], e[4];  ///< three are used; four are loaded at once
   /// Edge k at a pixel of the tile. Intermediate sums may wrap.

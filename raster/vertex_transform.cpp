@@ -28,6 +28,7 @@ HWY_INLINE double row_times_point(const double* row, double x, double y, double 
 
 HWY_INLINE double larger(double a, double b) { return a > b ? a : b; }
 
+/// Positions in object, clip or eye space.
 struct PositionBatch {
   alignas(64) double x[kVertexBatch], y[kVertexBatch], z[kVertexBatch], w[kVertexBatch];
 };
@@ -44,12 +45,18 @@ HWY_NOINLINE void gather_rows(StridedFloats rows, std::size_t count, double* x, 
       hn::Store(b, floats, columns[1] + i);
       hn::Store(c, floats, columns[2] + i);
     }
-    for (int i = 0; i < kVertexBatch; ++i) x[i] = columns[0][i], y[i] = columns[1][i], z[i] = columns[2][i];
+    for (int i = 0; i < kVertexBatch; ++i) {
+      x[i] = columns[0][i];
+      y[i] = columns[1][i];
+      z[i] = columns[2][i];
+    }
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
     const float* const row = rows.at(i);
-    x[i] = row[0], y[i] = row[1], z[i] = row[2];
+    x[i] = row[0];
+    y[i] = row[1];
+    z[i] = row[2];
   }
   for (std::size_t i = count; i < kVertexBatch; ++i) x[i] = y[i] = z[i] = 0;
 }
@@ -62,51 +69,58 @@ HWY_INLINE void gather_positions(StridedFloats positions, int components, std::s
   for (std::size_t i = 0; i < kVertexBatch; ++i) batch.w[i] = i >= count ? 0.0f : w(i);
 }
 
-std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats positions, int components,
-                                      std::size_t count, WindowVertex* vertices, std::uint8_t* outcodes) {
-  PositionBatch p;
-  gather_positions(positions, components, count, p);
-  alignas(64) double cx[kVertexBatch], cy[kVertexBatch], cz[kVertexBatch], cw[kVertexBatch];
+HWY_INLINE void to_clip_space(const VertexTransform& t, const PositionBatch& p, PositionBatch& clip) {
   const double* m = t.clip_from_object;
   for (int i = 0; i < kVertexBatch; ++i) {
-    cx[i] = row_times_point(m, p.x[i], p.y[i], p.z[i], p.w[i]);
-    cy[i] = row_times_point(m + 4, p.x[i], p.y[i], p.z[i], p.w[i]);
-    cz[i] = row_times_point(m + 8, p.x[i], p.y[i], p.z[i], p.w[i]);
-    cw[i] = row_times_point(m + 12, p.x[i], p.y[i], p.z[i], p.w[i]);
+    clip.x[i] = row_times_point(m, p.x[i], p.y[i], p.z[i], p.w[i]);
+    clip.y[i] = row_times_point(m + 4, p.x[i], p.y[i], p.z[i], p.w[i]);
+    clip.z[i] = row_times_point(m + 8, p.x[i], p.y[i], p.z[i], p.w[i]);
+    clip.w[i] = row_times_point(m + 12, p.x[i], p.y[i], p.z[i], p.w[i]);
   }
-  // Outcodes are sums of their bits in doubles: loops vectorize if all elements have the same width.
-  alignas(64) double outcode[kVertexBatch], inexact[kVertexBatch];
+}
+
+// Computes outcodes, and counts the tests of each vertex that rounding might decide (`inexact`). Outcodes are
+// sums of their bits in doubles: loops vectorize if all elements have the same width.
+HWY_INLINE void classify_vertices(const VertexTransform& t, const PositionBatch& p, const PositionBatch& clip,
+                                  double (&outcode)[kVertexBatch], double (&inexact)[kVertexBatch]) {
   const auto bit = [](Outcode plane) HWY_ATTR { return static_cast<double>(std::uint8_t{plane}); };
   // Loops with branches do not vectorize: the direction of depth is a factor of 1, -1 or 0.
   const double near_of_z = t.reversed ? -1 : 1;
   const double far_of_z = -near_of_z;
   const double far_of_w = t.reversed ? 0 : 1;
   for (int i = 0; i < kVertexBatch; ++i) {
-    const double gx = t.guard_x * cw[i], gy = t.guard_y * cw[i];
-    const double near_z = __builtin_fma(near_of_z, cz[i], cw[i]);
-    const double far_z = __builtin_fma(far_of_z, cz[i], far_of_w * cw[i]);
-    const double probe = cx[i] * 0 + cy[i] * 0 + cz[i] * 0 + cw[i] * 0;  // NaN if one is not finite
-    double c = cx[i] < -gx ? bit(kLeftOfGuardBand) : 0.0;
-    c += cx[i] > gx ? bit(kRightOfGuardBand) : 0.0;
-    c += cy[i] < -gy ? bit(kBelowGuardBand) : 0.0;
-    c += cy[i] > gy ? bit(kAboveGuardBand) : 0.0;
+    const double cx = clip.x[i], cy = clip.y[i], cz = clip.z[i], cw = clip.w[i];
+    const double gx = t.guard_x * cw, gy = t.guard_y * cw;
+    const double near_z = __builtin_fma(near_of_z, cz, cw);
+    const double far_z = __builtin_fma(far_of_z, cz, far_of_w * cw);
+    const double probe = cx * 0 + cy * 0 + cz * 0 + cw * 0;  // NaN if one is not finite
+    double c = cx < -gx ? bit(kLeftOfGuardBand) : 0.0;
+    c += cx > gx ? bit(kRightOfGuardBand) : 0.0;
+    c += cy < -gy ? bit(kBelowGuardBand) : 0.0;
+    c += cy > gy ? bit(kAboveGuardBand) : 0.0;
     c += near_z < 0 ? bit(kBeforeNear) : 0.0;
     c += far_z < 0 ? bit(kBehindFar) : 0.0;
-    c += cw[i] > 0 ? 0.0 : bit(kNonPositiveW);
+    c += cw > 0 ? 0.0 : bit(kNonPositiveW);
     c += probe == 0 ? 0.0 : bit(kNonFinite);
     outcode[i] = c;
     const double xyz = larger(larger(__builtin_fabs(p.x[i]), __builtin_fabs(p.y[i])), __builtin_fabs(p.z[i]));
     const double magnitude =
         __builtin_fma(t.max_row_norm_xyz, xyz, t.max_abs_translation * __builtin_fabs(p.w[i]));
-    const double to_guard_x = __builtin_fabs(__builtin_fabs(gx) - __builtin_fabs(cx[i]));
-    const double to_guard_y = __builtin_fabs(__builtin_fabs(gy) - __builtin_fabs(cy[i]));
+    const double to_guard_x = __builtin_fabs(__builtin_fabs(gx) - __builtin_fabs(cx));
+    const double to_guard_y = __builtin_fabs(__builtin_fabs(gy) - __builtin_fabs(cy));
     double n = __builtin_fabs(near_z) <= t.near_error * magnitude ? 1.0 : 0.0;
     n += __builtin_fabs(far_z) <= t.far_error * magnitude ? 1.0 : 0.0;
     n += to_guard_x <= t.guard_x_error * magnitude ? 1.0 : 0.0;
     n += to_guard_y <= t.guard_y_error * magnitude ? 1.0 : 0.0;
-    n += __builtin_fabs(cw[i]) <= t.w_error * magnitude ? 1.0 : 0.0;
+    n += __builtin_fabs(cw) <= t.w_error * magnitude ? 1.0 : 0.0;
     inexact[i] = n;
   }
+}
+
+// Repeats the transform of inexact vertices one by one.
+HWY_INLINE void correct_inexact(const VertexTransform& t, const PositionBatch& p, std::size_t count,
+                                const double (&inexact)[kVertexBatch], PositionBatch& clip,
+                                double (&outcode)[kVertexBatch]) {
   std::int32_t any_inexact = 0;
   for (int i = 0; i < kVertexBatch; ++i) any_inexact |= static_cast<std::int32_t>(inexact[i]);
   for (std::size_t i = 0; any_inexact != 0 && i < count; ++i) {
@@ -114,34 +128,51 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     const TransformedVertex exact =
         transform_vertex(t, {static_cast<float>(p.x[i]), static_cast<float>(p.y[i]),
                              static_cast<float>(p.z[i]), static_cast<float>(p.w[i])});
-    cx[i] = exact.position.x, cy[i] = exact.position.y, cz[i] = exact.position.z, cw[i] = exact.position.w;
+    clip.x[i] = exact.position.x;
+    clip.y[i] = exact.position.y;
+    clip.z[i] = exact.position.z;
+    clip.w[i] = exact.position.w;
     outcode[i] = exact.outcode;
   }
-  alignas(64) std::int32_t sx[kVertexBatch], sy[kVertexBatch];
-  alignas(64) float rw[kVertexBatch];
-  alignas(64) double depth[kVertexBatch];
-  const double unit_of_z = t.reversed ? 1 : 0.5, first_unit = t.reversed ? 0 : 0.5;
+}
+
+struct WindowBatch {
+  alignas(64) std::int32_t x[kVertexBatch], y[kVertexBatch];  // 1/256 pixel from the viewport's centre, y up
+  alignas(64) float rw[kVertexBatch];                         // 1/w
+  alignas(64) double depth[kVertexBatch];                     // 0..1
+};
+
+// Projects and snaps vertices without outcode; all others go to the viewport's centre.
+HWY_INLINE void to_window_space(const VertexTransform& t, const PositionBatch& clip,
+                                const double (&outcode)[kVertexBatch], WindowBatch& window) {
+  const double unit_of_z = t.reversed ? 1 : 0.5;
+  const double first_unit = t.reversed ? 0 : 0.5;
   for (int i = 0; i < kVertexBatch; ++i) {
-    const double w = outcode[i] == 0 ? cw[i] : 1.0;
-    const double x = outcode[i] == 0 ? cx[i] : 0.0, y = outcode[i] == 0 ? cy[i] : 0.0;
-    const double z = outcode[i] == 0 ? cz[i] : 0.0;
+    const double w = outcode[i] == 0 ? clip.w[i] : 1.0;
+    const double x = outcode[i] == 0 ? clip.x[i] : 0.0, y = outcode[i] == 0 ? clip.y[i] : 0.0;
+    const double z = outcode[i] == 0 ? clip.z[i] : 0.0;
     const double inverse_w = 1.0 / w;
-    sx[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(x / w * t.half_width, 256.0, 0.5)));
-    sy[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(y / w * t.half_height, 256.0, 0.5)));
-    rw[i] = static_cast<float>(inverse_w);
+    window.x[i] = static_cast<std::int32_t>(__builtin_floor(__builtin_fma(x / w * t.half_width, 256.0, 0.5)));
+    window.y[i] =
+        static_cast<std::int32_t>(__builtin_floor(__builtin_fma(y / w * t.half_height, 256.0, 0.5)));
+    window.rw[i] = static_cast<float>(inverse_w);
     const double ranged =
         __builtin_fma(__builtin_fma(z / w, unit_of_z, first_unit), t.depth_far - t.depth_near, t.depth_near);
-    const double low = ranged > 0 ? ranged : 0;
-    depth[i] = low < 1 ? low : 1;
+    const double at_least_zero = ranged > 0 ? ranged : 0;
+    window.depth[i] = at_least_zero < 1 ? at_least_zero : 1;
   }
-  alignas(64) std::uint32_t sz[kVertexBatch];
-  if (t.depth == DepthFormat::float32) {
+}
+
+// Depth words (WindowVertex::z) of depths in 0..1.
+HWY_INLINE void to_depth_words(DepthFormat kind, const double (&depth)[kVertexBatch],
+                               std::uint32_t (&words)[kVertexBatch]) {
+  if (kind == DepthFormat::float32) {
     for (int i = 0; i < kVertexBatch; ++i) {
       const float f = static_cast<float>(depth[i]);
-      std::memcpy(&sz[i], &f, sizeof f);
+      std::memcpy(&words[i], &f, sizeof f);
     }
-  } else if (t.depth != DepthFormat::none) {
-    const int bits = depth_bits(t.depth);
+  } else if (kind != DepthFormat::none) {
+    const int bits = depth_bits(kind);
     const double levels = static_cast<double>((std::uint64_t{1} << bits) - 1);
     const double fraction = static_cast<double>(std::uint64_t{1} << (32 - bits));
     // Rounded to the nearest fraction of the same level: a depth in the middle of a level that rounding
@@ -151,12 +182,17 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
       const double nearest = __builtin_floor(level * fraction + 0.5);
       const double highest = __builtin_floor(level) * fraction + (fraction - 1);
       const double value = nearest < highest ? nearest : highest;
-      sz[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(value - 2147483648.0)) ^ 0x80000000u;
+      words[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(value - 2147483648.0)) ^ 0x80000000u;
     }
   } else {
-    for (int i = 0; i < kVertexBatch; ++i) sz[i] = 0;
+    for (int i = 0; i < kVertexBatch; ++i) words[i] = 0;
   }
-  // Transpose to rows; a partial batch goes through a buffer.
+}
+
+// Transposes to rows; a partial batch goes through a buffer.
+HWY_INLINE void store_vertices(const VertexTransform& t, const WindowBatch& window,
+                               const std::uint32_t (&depth_words)[kVertexBatch], std::size_t count,
+                               WindowVertex* vertices) {
   static_assert(offsetof(WindowVertex, x) == 0 && offsetof(WindowVertex, y) == 4 &&
                 offsetof(WindowVertex, z) == 8 && offsetof(WindowVertex, rw) == 12);
   alignas(64) std::int32_t rest[4 * kVertexBatch];
@@ -165,10 +201,26 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
   const auto center_x = hn::Set(ints, t.center_x), center_y = hn::Set(ints, t.center_y);
   for (std::size_t i = 0; i < kVertexBatch; i += hn::Lanes(ints))
     hn::StoreInterleaved4(
-        hn::Add(center_x, hn::Load(ints, sx + i)), hn::Sub(center_y, hn::Load(ints, sy + i)),
-        hn::Load(ints, reinterpret_cast<const std::int32_t*>(sz) + i),
-        hn::BitCast(ints, hn::Load(hn::RebindToFloat<decltype(ints)>(), rw + i)), ints, rows + 4 * i);
+        hn::Add(center_x, hn::Load(ints, window.x + i)), hn::Sub(center_y, hn::Load(ints, window.y + i)),
+        hn::Load(ints, reinterpret_cast<const std::int32_t*>(depth_words) + i),
+        hn::BitCast(ints, hn::Load(hn::RebindToFloat<decltype(ints)>(), window.rw + i)), ints, rows + 4 * i);
   if (rows == rest) std::memcpy(vertices, rest, count * sizeof *vertices);
+}
+
+std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats positions, int components,
+                                      std::size_t count, WindowVertex* vertices, std::uint8_t* outcodes) {
+  PositionBatch p;
+  gather_positions(positions, components, count, p);
+  PositionBatch clip;
+  to_clip_space(t, p, clip);
+  alignas(64) double outcode[kVertexBatch], inexact[kVertexBatch];
+  classify_vertices(t, p, clip, outcode, inexact);
+  correct_inexact(t, p, count, inexact, clip, outcode);
+  WindowBatch window;
+  to_window_space(t, clip, outcode, window);
+  alignas(64) std::uint32_t depth_words[kVertexBatch];
+  to_depth_words(t.depth, window.depth, depth_words);
+  store_vertices(t, window, depth_words, count, vertices);
   int all_outcodes = 0;
   alignas(64) std::int32_t bits[kVertexBatch];
   for (int i = 0; i < kVertexBatch; ++i) bits[i] = static_cast<std::int32_t>(outcode[i]);
@@ -194,9 +246,16 @@ void eye_positions_lanes(const EyeTransform& t, StridedFloats positions, int com
   }
   const bool keeps_w = m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1;
   if (components == 4 || !keeps_w)  // otherwise w is 1
-    for (int i = 0; i < kVertexBatch; ++i) p.x[i] /= p.w[i], p.y[i] /= p.w[i], p.z[i] /= p.w[i];
-  for (int i = 0; i < kVertexBatch; ++i)
-    x[i] = static_cast<float>(p.x[i]), y[i] = static_cast<float>(p.y[i]), z[i] = static_cast<float>(p.z[i]);
+    for (int i = 0; i < kVertexBatch; ++i) {
+      p.x[i] /= p.w[i];
+      p.y[i] /= p.w[i];
+      p.z[i] /= p.w[i];
+    }
+  for (int i = 0; i < kVertexBatch; ++i) {
+    x[i] = static_cast<float>(p.x[i]);
+    y[i] = static_cast<float>(p.y[i]);
+    z[i] = static_cast<float>(p.z[i]);
+  }
 }
 
 void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t count, float* x, float* y,
@@ -204,29 +263,31 @@ void eye_normals_lanes(const EyeTransform& t, StridedFloats normals, std::size_t
   alignas(64) double nx[kVertexBatch], ny[kVertexBatch], nz[kVertexBatch];
   gather_rows(normals, count, nx, ny, nz);
   const double* m = t.normal_matrix;
-  const auto carry = [&](const auto& scaled) HWY_ATTR {
+  const auto for_each_eye_normal = [&](const auto& store) HWY_ATTR {
     for (int i = 0; i < kVertexBatch; ++i) {
       const double ex = __builtin_fma(m[0], nx[i], __builtin_fma(m[1], ny[i], m[2] * nz[i]));
       const double ey = __builtin_fma(m[3], nx[i], __builtin_fma(m[4], ny[i], m[5] * nz[i]));
       const double ez = __builtin_fma(m[6], nx[i], __builtin_fma(m[7], ny[i], m[8] * nz[i]));
-      scaled(i, ex, ey, ez);
+      store(i, ex, ey, ez);
     }
   };
   const auto [shortest, longest] = t.normal_lengths;
   if (shortest == 0) {
-    carry([&](int i, double ex, double ey, double ez) HWY_ATTR {
-      x[i] = static_cast<float>(ex), y[i] = static_cast<float>(ey), z[i] = static_cast<float>(ez);
+    for_each_eye_normal([&](int i, double ex, double ey, double ez) HWY_ATTR {
+      x[i] = static_cast<float>(ex);
+      y[i] = static_cast<float>(ey);
+      z[i] = static_cast<float>(ez);
     });
     return;
   }
   const double min_squared = shortest * shortest, max_squared = longest * longest;
   const double per_shortest = 1 / shortest, per_longest = 1 / longest;
-  carry([&](int i, double ex, double ey, double ez) HWY_ATTR {
+  for_each_eye_normal([&](int i, double ex, double ey, double ez) HWY_ATTR {
     const double squared = __builtin_fma(ex, ex, __builtin_fma(ey, ey, ez * ez));
     const bool is_short = squared > 0 && squared < min_squared;
     const bool is_long = squared > max_squared;
-    const double length =
-        is_short || is_long ? __builtin_sqrt(squared) * (is_short ? per_shortest : per_longest) : 1.0;
+    const double per_limit = is_short ? per_shortest : per_longest;
+    const double length = is_short || is_long ? __builtin_sqrt(squared) * per_limit : 1.0;
     x[i] = static_cast<float>(ex / length);
     y[i] = static_cast<float>(ey / length);
     z[i] = static_cast<float>(ez / length);
@@ -252,10 +313,6 @@ ClipPosition clip_position(const VertexTransform& t, double x, double y, double 
     return std::fma(m[0], x, std::fma(m[1], y, std::fma(m[2], z, m[3] * w)));
   };
   return {row(0), row(1), row(2), row(3)};
-}
-
-static bool is_finite(const ClipPosition& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w);
 }
 
 std::uint8_t compute_outcode(const VertexTransform& t, const ClipPosition& p) {

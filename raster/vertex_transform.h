@@ -44,6 +44,10 @@ struct ClipPosition {
   double x = 0, y = 0, z = 0, w = 1;
 };
 
+inline bool is_finite(const ClipPosition& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w);
+}
+
 /// Transform of a draw's vertices from object to raster space. In double: the depth of a vertex then resolves
 /// the smallest difference of every format, and matrices may scale by 10^6 and back.
 struct VertexTransform {

@@ -49,38 +49,44 @@ bool WindowPolygon::add_fan() {
   return !is_concave;
 }
 
+// True if a vertex lies in a triangle or on its edges, and at none of its corners.
+bool WindowPolygon::contains(const Corners& c, int vertex) const {
+  const bool is_corner = std::any_of(c.begin(), c.end(), [&](int corner) {
+    return window[corner].x == window[vertex].x && window[corner].y == window[vertex].y;
+  });
+  const bool is_inside = oriented_area({c[0], c[1], vertex}) >= 0 &&
+                         oriented_area({c[1], c[2], vertex}) >= 0 && oriented_area({c[2], c[0], vertex}) >= 0;
+  return !is_corner && is_inside;
+}
+
+// True if the triangle can be cut off a polygon with the `remaining` vertices.
+bool WindowPolygon::is_ear(const Corners& corners, std::span<const int> remaining) const {
+  const double turn = oriented_area(corners);
+  if (turn <= 0) return turn == 0;
+  return std::none_of(remaining.begin(), remaining.end(), [&](int i) { return contains(corners, i); });
+}
+
 // Ear clipping. There is always an ear unless edges cross; then the first corner by position is cut off.
 void WindowPolygon::add_ears() {
   std::array<int, kMaxClippedVertices> remaining{};
   for (int i = 0; i < clipped.count; ++i) remaining[static_cast<std::size_t>(i)] = i;
   for (int count = clipped.count; count > 2; --count) {
-    const auto ear_at = [&](int i) {
+    const auto corners_at = [&](int i) {
       return Corners{remaining[static_cast<std::size_t>((i + count - 1) % count)],
                      remaining[static_cast<std::size_t>(i)],
                      remaining[static_cast<std::size_t>((i + 1) % count)]};
     };
-    const auto is_ear = [&](const Corners& ear) {
-      const auto contains = [&](int other) {
-        const bool is_corner = std::any_of(ear.begin(), ear.end(), [&](int c) {
-          return window[c].x == window[other].x && window[c].y == window[other].y;
-        });
-        const bool is_inside = oriented_area({ear[0], ear[1], other}) >= 0 &&
-                               oriented_area({ear[1], ear[2], other}) >= 0 &&
-                               oriented_area({ear[2], ear[0], other}) >= 0;
-        return !is_corner && is_inside;
-      };
-      return oriented_area(ear) == 0 ||
-             (oriented_area(ear) > 0 && std::none_of(remaining.begin(), remaining.begin() + count, contains));
-    };
+    // The first ear by position; without ears, the first corner.
     int best = 0;
-    bool found = false;
+    bool best_is_ear = false;
     for (int i = 0; i < count; ++i) {
-      const bool ear = is_ear(ear_at(i));
-      if (ear < found || (ear == found && !is_before(ear_at(i)[1], ear_at(best)[1]))) continue;
+      const bool ear = is_ear(corners_at(i), std::span(remaining).first(static_cast<std::size_t>(count)));
+      const bool is_better = ear == best_is_ear ? is_before(corners_at(i)[1], corners_at(best)[1]) : ear;
+      if (!is_better) continue;
       best = i;
-      found = ear;
+      best_is_ear = ear;
     }
-    add(ear_at(best));
+    add(corners_at(best));
     std::copy(remaining.begin() + best + 1, remaining.begin() + count, remaining.begin() + best);
   }
 }

@@ -35,6 +35,8 @@ struct WindowPolygon {
   double oriented_area(const Corners& corners) const;
   bool is_before(int a, int b) const;
   void add(const Corners& corners);
+  bool contains(const Corners& corners, int vertex) const;
+  bool is_ear(const Corners& corners, std::span<const int> remaining) const;
   bool add_fan();
   void add_ears();
 

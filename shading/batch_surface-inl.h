@@ -1,4 +1,4 @@
-// The surface that the points of a batch share, and how attributes of triangles are gathered into it.
+// The surface that the points of a batch share, and how attributes of triangles are gathered into the batch.
 #if defined(TESSERA_SHADING_BATCH_SURFACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_BATCH_SURFACE_INL_H_
 #undef TESSERA_SHADING_BATCH_SURFACE_INL_H_
@@ -15,25 +15,27 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// The surface that a batch's points share, one face of one draw: where attributes go, and the steps from
-/// there to colors.
+/// One face of one draw: where its attributes go, and the steps from there to colours.
 struct BatchSurface {
+  enum class Packing : std::uint8_t { levels, indices, unit };
+
   std::uint32_t draw = 0xffffffffu;
   bool back = false;
 
-  int first_attribute = 0, attribute_count = 0;  // in the vertices' records
-  float* target[kMaxAttributes];                 // per attribute: its array in the batch
-  bool adjacent = false;                         // these arrays follow each other
-  bool clamps_to_range = false;                  // attributes are clamped to the range of the vertices
-  bool gathers_coordinates = false;              // texture coordinates are gathered with the attributes
-  TextureCoordinates coordinates;                // the triangle gathered last
+  int first_attribute = 0;  // in the records of the vertices
+  int attribute_count = 0;
+  float* target[kMaxAttributes];     // per attribute: its array in the batch
+  bool adjacent = false;             // these arrays follow each other
+  bool clamps_to_range = false;      // attributes are clamped to the range of the vertices
+  bool gathers_coordinates = false;  // texture coordinates are gathered with the attributes
+  TextureCoordinates coordinates;    // those of the triangle gathered last
 
-  bool is_constant = false;                  // colors are the draw's
-  bool interpolates_colors = false;          // attributes are colors 0..1 or levels, no indices
-  const LightingProgram* program = nullptr;  // makes colors of the attributes; null: they are colors
-  bool clamps_colors = false;                // extrapolated colors are clamped to 0..1
+  bool is_constant = false;                  // all points have the colour of the draw
+  bool interpolates_colors = false;          // attributes are colours, 0..1 or levels; not indices
+  const LightingProgram* program = nullptr;  // computes colours from the attributes; null: they are colours
+  bool clamps_colors = false;                // extrapolated colours are clamped to 0..1
   const DrawTexture* texture = nullptr;      // null: none
-  enum class Packing : std::uint8_t { levels, indices, unit } packing = Packing::unit;
+  Packing packing = Packing::unit;
 
   HWY_INLINE bool is_of(const ShadedTriangle& triangle) const {
     return draw == triangle.draw && back == triangle.back;
@@ -49,20 +51,21 @@ HWY_INLINE const DrawTexture* texture_of(const TileDraw& draw, bool back) {
   return draw.index[back ? 1 : 0] ? nullptr : draw.texture;
 }
 
-/// Whether attributes are clamped to the range of a triangle's vertices: with several samples, because
-/// pixels' centers may lie outside; and colors that do not keep away from the borders of levels
-/// (scaled_colors). Lines extrapolate beyond their ends [GL 2.1, equation 3.6].
+/// Whether attributes are clamped to the range of a triangle's vertices. With several samples the centre of a
+/// covered pixel may lie outside the triangle. With one sample only colours 0..1 are clamped; scaled_colors
+/// keep a margin instead (scale_colors()). Lines extrapolate beyond their ends [GL 2.1, equation 3.6].
 HWY_INLINE bool attributes_clamp_to_range(const TileContext& context, const TileDraw& draw) {
-  return draw.topology != Topology::lines &&
-         (context.samples > 1 || (draw.source == ColorSource::interpolated && !draw.scaled_colors));
+  if (draw.topology == Topology::lines) return false;
+  return context.samples > 1 || (draw.source == ColorSource::interpolated && !draw.scaled_colors);
 }
 
-/// Makes the batch one of the triangle's surface. @pre the batch is empty
+/// Sets `surface` to that of the triangle. @pre the batch is empty
 HWY_INLINE void begin_surface(const TileContext& context, BatchSurface& surface,
                               const ShadedTriangle& triangle) {
   const TileDraw& draw = context.frame.draws[triangle.draw];
   const int face = triangle.back ? 1 : 0;
-  const bool is_lit = draw.source == ColorSource::per_pixel, is_index = draw.index[face];
+  const bool is_lit = draw.source == ColorSource::per_pixel;
+  const bool is_index = draw.index[face];
   surface.draw = triangle.draw;
   surface.back = triangle.back;
   surface.is_constant = draw.source == ColorSource::constant;
@@ -97,7 +100,7 @@ HWY_INLINE const TextureCoordinates& coordinates_in(const TileContext& context, 
   return surface.coordinates;
 }
 
-/// Texture coordinates of the chunk of points from `point` on, in the lanes of `mask`.
+/// Stores texture coordinates in the chunk of points from `point` on, in the lanes of `mask`.
 inline HWY_NOINLINE void gather_coordinates(const TileContext& context, BatchSurface& surface,
                                             const ShadedTriangle& triangle, const Barycentric& at,
                                             LaneMask mask, int point) {
@@ -108,15 +111,14 @@ inline HWY_NOINLINE void gather_coordinates(const TileContext& context, BatchSur
 }
 
 /// Number of attributes, if gather_block_span() has a specialization for it: 1, 3 or 6 in adjacent arrays,
-/// neither clamped to a range nor with texture coordinates. Else 0.
+/// without clamping to a range and without texture coordinates. Otherwise 0.
 HWY_INLINE int known_count(const BatchSurface& surface) {
   const int count = surface.attribute_count;
-  return (count == 1 || count == 3 || count == 6) && surface.adjacent && !surface.clamps_to_range &&
-                 !surface.gathers_coordinates
-             ? count
-             : 0;
+  const bool has_special_count = count == 1 || count == 3 || count == 6;
+  const bool is_plain = surface.adjacent && !surface.clamps_to_range && !surface.gathers_coordinates;
+  return has_special_count && is_plain ? count : 0;
 }
-/// Calls body(known_count()) with a constant.
+/// Calls body(count), where count.value is known_count() as a constant.
 template <class Run>
 HWY_INLINE void with_known_count(const BatchSurface& surface, const Run& body) {
   switch (known_count(surface)) {
@@ -127,10 +129,10 @@ HWY_INLINE void with_known_count(const BatchSurface& surface, const Run& body) {
   }
 }
 
-/// Gathers the attributes of one triangle's visible pixels in one block into the points from `first` on;
-/// other lanes keep what they hold.
-/// @param kCount  known_count(), or 0 for any
-/// @param values  TriangleInterpolants or InterpolantArrays of the surface's attributes
+/// Gathers the attributes of one triangle's visible pixels in one block into the points from `first` on.
+/// Other points are unchanged.
+/// @param kCount   known_count(), or 0 for any
+/// @param values   TriangleInterpolants or InterpolantArrays of the surface's attributes
 /// @param at       at(chunk): barycentric coordinates of a chunk
 /// @param covered  visible pixels, 16 bits
 template <int kCount, class Values, class At>
@@ -157,8 +159,7 @@ HWY_INLINE void gather_values(const TileContext& context, BatchSurface& surface,
       gather_coordinates(context, surface, triangle, weights, mask, point);
   }
 }
-/// gather_values() of a wide triangle. Compiled once: few triangles are wide, though all points and lines
-/// are.
+/// gather_values() for wide triangles, and for all points and lines. Compiled once: few triangles are wide.
 inline HWY_NOINLINE void gather_edges64(const TileContext& context, BatchSurface& surface,
                                         const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
                                         int first) {

@@ -33,20 +33,25 @@ struct BoxGroup {
   /// Maximum number of boxes per axis. Larger triangles consist mostly of full blocks, for which the row path
   /// is faster. With 16 vector registers (AVX2) more than one box gains nothing.
   static constexpr int kMaxBoxes = kLanes == 16 ? 3 : 1;
-  std::uint32_t triangles = 0;                            // triangles in boxes, one bit each
-  std::uint32_t singles = 0;                              // those of them in a single box
-  alignas(64) std::int32_t to_block[kLanes];              // pixel index of each block relative to the box
-  alignas(64) std::int32_t x[kGroupSize], y[kGroupSize];  // first pixel of the first box
-  alignas(64) std::int32_t columns[kGroupSize], rows[kGroupSize];  // number of blocks
-  alignas(64) std::int32_t e[3][kGroupSize];                       // the edges at (x, y)
-  alignas(64) std::int32_t
-      to_highest[3][kGroupSize];  // maximum of an edge in a block - value at its first pixel
-  // Triangles in a single box:
-  alignas(64) std::int32_t offset[kGroupSize][3][kBlockPixels];  // edges at a block's pixels - at its first
-  alignas(64) std::int32_t start[kGroupSize][3][kLanes];         // edges at the blocks' first pixels
-  std::uint32_t touched[kGroupSize];                             // blocks that the triangle may cover
+  std::uint32_t triangles = 0;                // triangles in boxes, one bit each
+  std::uint32_t singles = 0;                  // triangles in a single box, one bit each
+  alignas(64) std::int32_t to_block[kLanes];  // pixel index of each block relative to the box
+  // First pixel of the first box.
+  alignas(64) std::int32_t x[kGroupSize], y[kGroupSize];
+  // Number of blocks.
+  alignas(64) std::int32_t columns[kGroupSize], rows[kGroupSize];
+  // Edges at (x, y).
+  alignas(64) std::int32_t e[3][kGroupSize];
+  // Maximum of an edge in a block minus its value at the block's first pixel.
+  alignas(64) std::int32_t to_highest[3][kGroupSize];
+  // Single boxes only: edges at a block's pixels minus those at its first pixel.
+  alignas(64) std::int32_t offset[kGroupSize][3][kBlockPixels];
+  // Single boxes only: edges at the blocks' first pixels.
+  alignas(64) std::int32_t start[kGroupSize][3][kLanes];
+  // Single boxes only: blocks that the triangle may cover, one bit each.
+  std::uint32_t touched[kGroupSize];
 
-  /// Not inlined: compiled once for all depths and colors.
+  /// Not inlined: compiled once for all depth types and ColorWrites.
   /// @param among  triangles that are drawn by blocks, one bit each
   HWY_NOINLINE void set_up(const TileContext& context, const TriangleGroup& g, std::uint32_t among) {
     const auto at = [](const std::int32_t* array, int first)
@@ -54,22 +59,25 @@ struct BoxGroup {
     hn::Store(context.pixel_indices(hn::ShiftLeft<2>(block_columns(0)), hn::ShiftLeft<2>(block_rows(0))),
               kInt, to_block);
     for (int first = 0; first < kGroupSize; first += kLanes) {
-      const Int first_x = hn::And(at(g.x0, first), splat(~3)), first_y = hn::And(at(g.y0, first), splat(~3)),
-                one = splat(1), zero = hn::Zero(kInt);
-      const Int across = hn::Add(hn::ShiftRight<2>(hn::Sub(at(g.x1, first), first_x)), one),
-                down = hn::Add(hn::ShiftRight<2>(hn::Sub(at(g.y1, first), first_y)), one);
+      const Int one = splat(1);
+      const Int zero = hn::Zero(kInt);
+      const Int first_x = hn::And(at(g.x0, first), splat(~3));
+      const Int first_y = hn::And(at(g.y0, first), splat(~3));
+      const Int across = hn::Add(hn::ShiftRight<2>(hn::Sub(at(g.x1, first), first_x)), one);
+      const Int down = hn::Add(hn::ShiftRight<2>(hn::Sub(at(g.y1, first), first_y)), one);
       hn::Store(across, kInt, columns + first);
       hn::Store(down, kInt, rows + first);
       hn::Store(first_x, kInt, x + first);
       hn::Store(first_y, kInt, y + first);
       Int lowest = zero;
       for (int k = 0; k < 3; ++k) {
-        const Int a = at(g.a[k], first), b = at(g.b[k], first);
+        const Int a = at(g.a[k], first);
+        const Int b = at(g.b[k], first);
         const Int at_first = hn::Add(at(g.e[k], first), hn::Add(hn::Mul(a, first_x), hn::Mul(b, first_y)));
         hn::Store(at_first, kInt, e[k] + first);
         hn::Store(hn::Mul(hn::Add(hn::Max(a, zero), hn::Max(b, zero)), splat(3)), kInt,
                   to_highest[k] + first);
-        // As min_over_blocks() has it.
+        // As in min_over_blocks().
         const auto to_last = [&](Int blocks) HWY_ATTR { return hn::Sub(hn::ShiftLeft<2>(blocks), one); };
         lowest = hn::Or(lowest, hn::Add(at_first, hn::Add(hn::Mul(to_last(across), hn::Min(a, zero)),
                                                           hn::Mul(to_last(down), hn::Min(b, zero)))));
@@ -78,9 +86,9 @@ struct BoxGroup {
         return mask_bits(
             kInt, hn::And(hn::Lt(across, splat(4 * boxes + 1)), hn::Lt(down, splat(kBoxRows * boxes + 1))));
       };
-      const std::uint32_t narrow = mask_bits(kInt, hn::Eq(at(g.needs_edges64, first), zero)),
-                          has_borders = mask_bits(kInt, hn::Lt(lowest, zero));
-      triangles |= (fit_in(kMaxBoxes) & narrow & has_borders) << first;
+      const std::uint32_t are_narrow = mask_bits(kInt, hn::Eq(at(g.needs_edges64, first), zero));
+      const std::uint32_t have_borders = mask_bits(kInt, hn::Lt(lowest, zero));
+      triangles |= (fit_in(kMaxBoxes) & are_narrow & have_borders) << first;
       singles |= fit_in(1) << first;
     }
     triangles &= among;
@@ -88,17 +96,20 @@ struct BoxGroup {
     for (std::uint32_t left = singles; left != 0; left &= left - 1) set_up_single(g, std::countr_zero(left));
   }
   HWY_INLINE bool is_single(int i) const { return (singles >> i & 1) != 0; }
-  /// Blocks of a box that the triangle may cover, among those in the first `across` and `down`.
+
+  /// Blocks that the triangle may cover, among the first `across` columns and `down` rows of a box.
+  /// @param at  edges at the blocks' first pixels
   HWY_INLINE std::uint32_t touched_blocks(int i, const Int (&at)[3], int across, int down) const {
     Int highest = hn::Zero(kInt);
     for (int k = 0; k < 3; ++k) highest = hn::Or(highest, hn::Add(at[k], splat(to_highest[k][i])));
     return mask_bits(kInt, hn::Gt(highest, splat(-1))) & blocks_within(across, down);
   }
 
-  /// The edges at the first pixels of the first box's blocks; `to_pixels` gets what they are from there at a
-  /// block's pixels.
+  /// Edge k at the first pixels of the blocks of the first box. `to_pixels` receives the edge at a block's
+  /// pixels minus that at its first pixel.
   HWY_INLINE Int at_blocks(const TriangleGroup& g, int i, int k, Int (&to_pixels)[kChunksPerBlock]) const {
-    const Int a = splat(g.a[k][i]), b = splat(g.b[k][i]);
+    const Int a = splat(g.a[k][i]);
+    const Int b = splat(g.b[k][i]);
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
       to_pixels[chunk] = hn::Add(hn::Mul(a, block_columns(chunk)), hn::Mul(b, block_rows(chunk)));
     return hn::Add(splat(e[k][i]), hn::ShiftLeft<2>(to_pixels[0]));
@@ -128,17 +139,17 @@ struct BoxPixels {
   Depth depth;
   WeightLanes weights;
   GouraudColorEval color;
-  std::int32_t value;  // packed color, or number of the collected triangle
+  std::int32_t value;  // packed colour, or number of the triangle
   Int writable;
-  Int offset[3][kChunksPerBlock];  // edges at a block's pixels - at its first
+  Int offset[3][kChunksPerBlock];  // edges at a block's pixels minus those at its first pixel
   std::uint32_t visible = 0;       // number of visible pixels; deferred: nonzero if any
 
   HWY_INLINE BoxPixels(TileContext& tile_context, const TileDraw& draw, const BoxGroup& group_boxes,
-                       int triangle, std::int32_t word_or_number, bool back)
+                       int triangle, std::int32_t color_or_number, bool back)
       : context(tile_context),
         boxes(group_boxes),
         i(triangle),
-        value(word_or_number),
+        value(color_or_number),
         writable(splat(static_cast<std::int32_t>(draw.write_mask))) {
     const TriangleGroup& g = context.memory.group;
     if constexpr (kColorWrite == ColorWrite::interpolated) {
@@ -178,7 +189,7 @@ struct BoxPixels {
 
  private:
   /// Draws the touched blocks of the box at (x, y).
-  /// @param start  the edges at the blocks' first pixels
+  /// @param start  edges at the blocks' first pixels
   HWY_INLINE void draw_blocks(std::uint32_t touched, int x, int y, const std::int32_t (&start)[3][kLanes]) {
     const auto box_depth = depth.box(x, y);
     for (const int index = context.block_index(x, y); touched != 0; touched &= touched - 1) {
@@ -188,7 +199,8 @@ struct BoxPixels {
                  start[1][block], start[2][block]);
     }
   }
-  /// @param start  the edges at the block's first pixel
+  /// @param index          the block's first pixel in the tile
+  /// @param start0, start1, start2  edges at the block's first pixel
   HWY_INLINE void draw_block(int index, const typename Depth::Block& block_depth, std::int32_t start0,
                              std::int32_t start1, std::int32_t start2) {
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, index += kLanes) {
@@ -196,7 +208,8 @@ struct BoxPixels {
                            hn::Add(offset[2][chunk], splat(start2))};
       const auto covered = hn::Gt(hn::Or(hn::Or(edge[0], edge[1]), edge[2]), splat(-1));
       std::int32_t* const depth_at = context.memory.depth + index;
-      const Int stored = hn::Load(kInt, depth_at), key = depth.keys(block_depth, chunk);
+      const Int stored = hn::Load(kInt, depth_at);
+      const Int key = depth.keys(block_depth, chunk);
       const auto mask = hn::And(covered, hn::Lt(key, stored));
       hn::Store(hn::IfThenElse(mask, key, stored), kInt, depth_at);
       if constexpr (kColorWrite != ColorWrite::none) color_pixels(index, edge, mask);
@@ -210,8 +223,8 @@ struct BoxPixels {
       hn::Store(hn::IfThenElse(mask, splat(value), hn::Load(kInt, id_at)), kInt, id_at);
       visible |= bits;
     } else {
-      if (kColorWrite == ColorWrite::interpolated && bits == 0)
-        return;  // cheap colors are stored without this test: the branch would be mispredicted
+      // Constant colours are stored without this test: the branch would be mispredicted.
+      if (kColorWrite == ColorWrite::interpolated && bits == 0) return;
       visible += static_cast<std::uint32_t>(std::popcount(bits));
       Int packed = splat(value);
       if constexpr (kColorWrite == ColorWrite::interpolated)
@@ -230,7 +243,7 @@ HWY_NOINLINE std::uint32_t draw_in_boxes_of(TileContext& context, const TileDraw
   return pixels.visible;
 }
 /// Draws triangle i of the group. @pre it is in boxes
-/// @param value  packed color, or number of the collected triangle
+/// @param value  packed colour, or number of the triangle
 /// @return the number of visible pixels; deferred: nonzero if any
 template <class Depth, ColorWrite kColorWrite>
 HWY_INLINE std::uint32_t draw_in_boxes(TileContext& context, const TileDraw& draw, const BoxGroup& boxes,

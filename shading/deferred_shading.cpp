@@ -1,6 +1,6 @@
-// Deferred shading: tiles collect which triangle is visible where; then whole batches of pixels are shaded
-// with full lanes. Attributes are gathered by block span, the pixels of one triangle in one block, with
-// masks: none is gathered pixel by pixel.
+// Deferred shading: the visibility buffer holds the number of the triangle that is visible at each pixel;
+// whole batches of these pixels are shaded with full lanes. Attributes are gathered by block span, the pixels
+// of one triangle in one block, under masks; never pixel by pixel.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/deferred_shading.cpp"
 #include "framebuffer/lanes.h"
@@ -21,19 +21,20 @@ namespace HWY_NAMESPACE {
 inline constexpr int kBatchBlocks = kBatchPoints / kBlockPixels;
 static_assert(kBatchBlocks * kBlockPixels == kBatchPoints);
 
-/// Up to kBatchBlocks blocks with pixels of one surface; each has 16 points of the batch. Points that no
-/// triangle covers hold any bits: nothing that is stored depends on them.
+/// Up to kBatchBlocks blocks with pixels of one surface. The block in slot n has the 16 points from 16 n on.
+/// Points of uncovered pixels may hold any bits: nothing that is stored depends on them.
 struct PixelBatch : BatchSurface {
   int blocks = 0;
   int index[kBatchBlocks];  // the block's first pixel in the tile
   int bx[kBatchBlocks], by[kBatchBlocks];
-  std::uint32_t covered[kBatchBlocks];  // 16 bits
-  bool one_surface = false;             // all collected triangles are of this surface
+  std::uint32_t covered[kBatchBlocks];  // pixels of the surface, 16 bits
+  bool one_surface = false;             // all visible triangles of the tile have this surface
 #if HWY_TARGET == HWY_AVX3
   alignas(64) std::int32_t visibility[kBatchPoints];  // copy of the blocks' visibility buffer
-  // Block spans: the visible pixels of one triangle in one block. Each has a pixel at least, so they fit.
+  // Block spans. Each has at least one pixel, so they fit.
   int span_count = 0;
-  std::int32_t triangle[kBatchPoints], slot[kBatchPoints];
+  std::int32_t triangle[kBatchPoints];
+  std::int32_t slot[kBatchPoints];
 #endif
 };
 
@@ -43,22 +44,23 @@ HWY_INLINE void gather_visible(const TileContext& context, PixelBatch& pixels, i
                                const ShadedTriangle& triangle, const TriangleInterpolants& interpolants,
                                std::uint32_t covered) {
   static_assert(kCount <= TriangleInterpolants::kCapacity);
-  const int bx = pixels.bx[slot], by = pixels.by[slot], first = slot * kBlockPixels;
-  if constexpr (kCount > 0)
+  const int bx = pixels.bx[slot], by = pixels.by[slot];
+  const int first = slot * kBlockPixels;
+  if constexpr (kCount > 0) {
     gather_block_span<kCount>(context, pixels, triangle, interpolants, bx, by, covered, first);
-  else
-    gather_block_span<0>(context, pixels, triangle,
-                         InterpolantArrays(triangle, pixels.first_attribute, pixels.attribute_count), bx, by,
-                         covered, first);
+  } else {
+    const InterpolantArrays values(triangle, pixels.first_attribute, pixels.attribute_count);
+    gather_block_span<0>(context, pixels, triangle, values, bx, by, covered, first);
+  }
 }
 
-// take_surface_pixels() takes the pixels of the batch's surface into the next slot and returns them. There
-// are two variants:
+// take_surface_pixels() takes the pixels of a block that belong to the batch's surface into the next slot,
+// and returns them. gather_pending() gathers the attributes that take_surface_pixels() has left.
 //   visibility  the block's part of the visibility buffer
-//   pending     pixels that have not been taken
+//   pending     pixels of the block that have not been taken yet
 #if HWY_TARGET == HWY_AVX3
-// Two passes: find the distinct triangles of a block first, in lanes; gather attributes of all block spans
-// afterwards, so that mispredicted loop exits do not stall the FMA chains.
+// Two passes: take_surface_pixels() finds the distinct triangles of a block, in lanes; gather_pending()
+// gathers the attributes of all block spans, so that mispredicted loop exits do not stall the FMA chains.
 
 template <int kCount>
 HWY_NOINLINE void gather_block_spans(const TileContext& context, PixelBatch& pixels) {
@@ -80,15 +82,15 @@ HWY_INLINE std::uint32_t take_surface_pixels(const TileContext& context, PixelBa
   TESSERA_ASSERT(pixels.span_count <= pixels.blocks * kBlockPixels);
   const Int at = hn::Load(kInt, visibility);
   std::uint32_t covered = pending;
-  if (!pixels.one_surface)
-    covered &=
-        mask_bits(kInt, hn::Eq(hn::GatherIndex(kInt, context.memory.surfaces, hn::Max(at, hn::Zero(kInt))),
-                               splat(pixels.surface_number())));
-  const std::uint32_t first = covered & ~mask_bits(kInt, duplicate_lanes(at));
-  hn::StoreU(hn::Compress(at, mask_from_bits(first)), kInt, pixels.triangle + pixels.span_count);
+  if (!pixels.one_surface) {
+    const Int surfaces = hn::GatherIndex(kInt, context.memory.surfaces, hn::Max(at, hn::Zero(kInt)));
+    covered &= mask_bits(kInt, hn::Eq(surfaces, splat(pixels.surface_number())));
+  }
+  const std::uint32_t distinct = covered & ~mask_bits(kInt, duplicate_lanes(at));
+  hn::StoreU(hn::Compress(at, mask_from_bits(distinct)), kInt, pixels.triangle + pixels.span_count);
   hn::StoreU(splat(pixels.blocks), kInt, pixels.slot + pixels.span_count);
   hn::Store(at, kInt, pixels.visibility + pixels.blocks * kBlockPixels);
-  pixels.span_count += std::popcount(first);
+  pixels.span_count += std::popcount(distinct);
   return covered;
 }
 #else
@@ -138,8 +140,7 @@ inline HWY_NOINLINE void shade_batch(TileContext& context, PixelBatch& pixels) {
   pixels.blocks = 0;
 }
 
-/// Prepares the collected triangles: their surface numbers and interpolants. Returns whether all are of one
-/// surface.
+/// Sets the surface numbers and interpolants of all visible triangles. Returns whether they have one surface.
 HWY_INLINE bool prepare_triangles(const TileContext& context) {
   TileWorkspace::Memory& memory = context.memory;
   TESSERA_ASSERT(memory.visible_triangles.size() <= kVisibleTriangleCapacity);
@@ -159,7 +160,6 @@ HWY_INLINE bool prepare_triangles(const TileContext& context) {
   return changes == 1;
 }
 
-/// Shades what was collected in the blocks of [x0, x1] x [y0, y1], pixels of the tile, and forgets it.
 void shade_visible(TileContext& context, int x0, int y0, int x1, int y1) {
   TileWorkspace::Memory& memory = context.memory;
   PixelBatch pixels;
@@ -171,7 +171,7 @@ void shade_visible(TileContext& context, int x0, int y0, int x1, int y1) {
       std::uint32_t pending = pixels_where(visibility, [](Int at) HWY_ATTR { return hn::Gt(at, splat(-1)); });
       if (pending == 0) continue;
       while (pending != 0) {
-        // All pixels of the block that belong to the surface of the first one still pending.
+        // One turn takes all pixels of the block with the same surface as the first pending one.
         const ShadedTriangle& leader =
             memory.visible_triangles[static_cast<std::size_t>(visibility[std::countr_zero(pending)])];
         const bool other_surface = !pixels.is_of(leader);

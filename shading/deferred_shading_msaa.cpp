@@ -1,5 +1,5 @@
-// Deferred shading where pixels have several samples: a color is evaluated once for each triangle that is
-// visible in a pixel, at the pixel's center, and goes to the samples that see the triangle.
+// Deferred shading for frames with several samples: a colour is evaluated once for each triangle that is
+// visible in a pixel, at the pixel's centre, and is stored in the samples where the triangle is visible.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/deferred_shading_msaa.cpp"
 #include "framebuffer/lanes.h"
@@ -27,7 +27,8 @@ constexpr SampleMasks broadcast_to_samples(std::uint32_t bits) {
 }
 /// The union over the samples.
 constexpr std::uint32_t any_sample_mask(const SampleMasks& bits) {
-  const std::uint64_t all = bits.word[0] | bits.word[1], folded = all | all >> 32;
+  const std::uint64_t all = bits.word[0] | bits.word[1];
+  const std::uint64_t folded = all | all >> 32;
   return static_cast<std::uint32_t>(folded | folded >> 16) & 0xffff;
 }
 static_assert(kMaxSamples == 8);
@@ -40,38 +41,40 @@ struct SampledSpan {
   SampleMasks visible;    // samples of these pixels
 };
 
-/// Points of one surface. A pixel has one for each triangle that is visible at its samples, so points are
-/// packed and do not lie at the places of the block's pixels.
+/// Points of one surface. A pixel has one point for each triangle that is visible at its samples, so points
+/// are packed: their order does not follow from the pixels' positions in a block.
 struct SampledBatch : BatchSurface {
-  int count = 0, span_count = 0;
+  int count = 0;
+  int span_count = 0;
   SampledSpan spans[kBatchPoints];  // each has at least one point
 };
 
-/// Packed colors of the batch's points, in order.
+/// Evaluates the packed colours of the batch's points, in order.
 HWY_INLINE void shade_points(TileContext& context, const SampledBatch& points, std::int32_t* packed) {
   evaluate_colors(context, points, (points.count + kLanes - 1) / kLanes * kLanes);
   for (int point = 0; point < points.count; point += kLanes) {
     const int count = std::min(points.count - point, kLanes);
-    // Colors of frames with several samples are never indices or scaled to levels.
+    // In frames with several samples colours are neither indices nor scaled to levels.
     hn::Store(pack_unit_colors(context.frame, context.memory.batch, point, (1u << count) - 1), kInt,
               packed + point);
   }
 }
 
+/// Shades the points of the batch, and empties it.
 inline HWY_NOINLINE void shade_sampled_batch(TileContext& context, SampledBatch& points) {
   if (points.count == 0) return;
   alignas(64) std::int32_t packed[kBatchPoints + kLanes];  // padded: whole vectors are read
   shade_points(context, points, packed);
   const Int writable = splat(static_cast<std::int32_t>(context.frame.draws[points.draw].write_mask));
   for (int i = 0; i < points.span_count; ++i) {
-    const SampledSpan& pixels = points.spans[i];
-    const Int of_pixels =
-        hn::TableLookupLanes(hn::LoadU(kInt, packed + pixels.point), expand_indices(kInt, pixels.covered));
+    const SampledSpan& span = points.spans[i];
+    const Int colors =
+        hn::TableLookupLanes(hn::LoadU(kInt, packed + span.point), expand_indices(kInt, span.covered));
     for (int w = 0; w < context.samples / 4; ++w)
-      for (int s = 0; s < 4; ++s)
-        store_packed(context.sample[4 * w + s].color + pixels.index, of_pixels,
-                     mask_from_bits(static_cast<std::uint32_t>(pixels.visible.word[w] >> (16 * s))),
-                     writable);
+      for (int s = 0; s < 4; ++s) {
+        const auto lanes = static_cast<std::uint32_t>(span.visible.word[w] >> (16 * s));
+        store_packed(context.sample[4 * w + s].color + span.index, colors, mask_from_bits(lanes), writable);
+      }
   }
   context.counts.shaded_pixels += static_cast<std::uint64_t>(points.count);
   points.count = points.span_count = 0;
@@ -88,8 +91,10 @@ inline HWY_NOINLINE void add_coordinates(const TileContext& context, SampledBatc
   });
 }
 
-/// Adds the visible pixels of one triangle in one block to the batch, which is shaded whenever it is full.
-/// @param kCount  number of attributes, in adjacent arrays and without texture coordinates; 0: any
+/// Adds the visible pixels of one triangle in one block to the batch. Shades the batch whenever it is full.
+/// @param kCount   number of attributes, in adjacent arrays and without texture coordinates; 0: any
+/// @param index    the block's first pixel in the tile
+/// @param visible  visible pixels of the block, per sample
 template <int kCount>
 HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, const ShadedTriangle& triangle,
                                    int bx, int by, int index, const SampleMasks& visible) {
@@ -99,8 +104,8 @@ HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, c
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     const std::uint32_t bits = chunk_bits(covered, chunk);
     if (bits == 0) continue;
-    if (points.count > kBatchPoints - kLanes)
-      shade_sampled_batch(context, points);  // whole vectors are stored
+    // Whole vectors are stored.
+    if (points.count > kBatchPoints - kLanes) shade_sampled_batch(context, points);
     const Barycentric at = barycentric(triangle, context.memory.edges64.data(), bx, by, chunk);
     const auto packing = compress_indices(kFloat, bits);
     for (int j = 0; j < count; ++j) {
@@ -112,20 +117,21 @@ HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, c
       hn::StoreU(hn::TableLookupLanes(value, packing), kFloat, target + points.count);
     }
     if (kCount == 0 && points.gathers_coordinates) add_coordinates(context, points, triangle, at, bits);
-    SampledSpan& pixels = points.spans[points.span_count++];
-    pixels.point = points.count;
-    pixels.index = index + chunk * kLanes;
-    pixels.covered = bits;
+    SampledSpan& span = points.spans[points.span_count++];
+    span.point = points.count;
+    span.index = index + chunk * kLanes;
+    span.covered = bits;
+    constexpr std::uint64_t kLanesOfSamples = broadcast_to_samples((1u << kLanes) - 1).word[0];
     for (int w = 0; w < kMaxSamples / 4; ++w)
-      pixels.visible.word[w] =
-          visible.word[w] >> (chunk * kLanes) & broadcast_to_samples((1u << kLanes) - 1).word[0];
+      span.visible.word[w] = visible.word[w] >> (chunk * kLanes) & kLanesOfSamples;
     points.count += std::popcount(bits);
   }
 }
 inline HWY_NOINLINE void add_points(TileContext& context, SampledBatch& points,
                                     const ShadedTriangle& triangle, int bx, int by, int index,
                                     const SampleMasks& visible) {
-  switch (points.adjacent && !points.gathers_coordinates ? points.attribute_count : 0) {
+  const bool is_plain = points.adjacent && !points.gathers_coordinates;
+  switch (is_plain ? points.attribute_count : 0) {
     case 3: return add_points_counted<3>(context, points, triangle, bx, by, index, visible);
     case 6: return add_points_counted<6>(context, points, triangle, bx, by, index, visible);
     default: return add_points_counted<0>(context, points, triangle, bx, by, index, visible);
@@ -136,15 +142,14 @@ inline HWY_NOINLINE void add_points(TileContext& context, SampledBatch& points,
 template <int kSamples, class Predicate>
 HWY_INLINE SampleMasks samples_where(const TileContext& context, int index, Predicate predicate) {
   SampleMasks bits;
-  for (int s = 0; s < kSamples; ++s)
-    bits.word[s / 4] |=
-        std::uint64_t{pixels_where(
-            reinterpret_cast<const std::int32_t*>(context.sample[s].visibility) + index, predicate)}
-        << (16 * (s % 4));
+  for (int s = 0; s < kSamples; ++s) {
+    const auto* const visibility = reinterpret_cast<const std::int32_t*>(context.sample[s].visibility);
+    bits.word[s / 4] |= std::uint64_t{pixels_where(visibility + index, predicate)} << (16 * (s % 4));
+  }
   return bits;
 }
 
-/// Whether all samples of each pixel of a block see the same triangle, or none.
+/// Whether in each pixel of a block the same triangle, or none, is visible at all samples.
 template <int kSamples>
 HWY_INLINE bool samples_agree(const TileContext& context, int index) {
   Int differing = hn::Zero(kInt);
@@ -158,8 +163,8 @@ HWY_INLINE bool samples_agree(const TileContext& context, int index) {
   return hn::AllTrue(kInt, hn::Eq(differing, hn::Zero(kInt)));
 }
 
-/// Adds one block to the batch. Returns false if no sample has a triangle.
-/// @param kSamples  samples to read: 1 if all agree
+/// Adds the points of one block to the batch. Returns false if no triangle is visible there.
+/// @param kSamples  samples to read: 1 if samples_agree()
 template <int kSamples>
 HWY_INLINE bool add_block(TileContext& context, SampledBatch& points, int bx, int by, int index) {
   const auto id_at = [&](int word, std::uint64_t bits) {
@@ -172,7 +177,7 @@ HWY_INLINE bool add_block(TileContext& context, SampledBatch& points, int bx, in
   if (any_sample_mask(pending) == 0) return false;
   for (int leading = 0; leading < kWords; ++leading) {
     while (pending.word[leading] != 0) {
-      // All triangles of the first one's surface, in order.
+      // One turn takes all triangles with the same surface as the first pending one, in order.
       const ShadedTriangle& leader = context.memory.visible_triangles[id_at(leading, pending.word[leading])];
       if (!points.is_of(leader)) {
         shade_sampled_batch(context, points);
@@ -189,9 +194,12 @@ HWY_INLINE bool add_block(TileContext& context, SampledBatch& points, int bx, in
           for (int w = 0; w < kWords; ++w) left.word[w] &= ~visible.word[w];
           if (!points.is_of(triangle)) continue;
           for (int w = 0; w < kWords; ++w) pending.word[w] &= ~visible.word[w];
-          add_points(
-              context, points, triangle, bx, by, index,
-              kSamples == 1 ? broadcast_to_samples(static_cast<std::uint32_t>(visible.word[0])) : visible);
+          if constexpr (kSamples == 1) {
+            const SampleMasks all = broadcast_to_samples(static_cast<std::uint32_t>(visible.word[0]));
+            add_points(context, points, triangle, bx, by, index, all);
+          } else {
+            add_points(context, points, triangle, bx, by, index, visible);
+          }
         }
       }
     }
@@ -205,9 +213,10 @@ HWY_NOINLINE void shade_visible_samples(TileContext& context) {
   for (int by = 0; by < context.tile_size; by += 4) {
     for (int bx = 0; bx < context.tile_size; bx += 4) {
       const int index = context.block_index(bx, by);
-      if (!(samples_agree<kSamples>(context, index) ? add_block<1>(context, points, bx, by, index)
-                                                    : add_block<kSamples>(context, points, bx, by, index)))
-        continue;
+      const bool has_triangles = samples_agree<kSamples>(context, index)
+                                     ? add_block<1>(context, points, bx, by, index)
+                                     : add_block<kSamples>(context, points, bx, by, index);
+      if (!has_triangles) continue;
       for (int s = 0; s < kSamples; ++s)
         for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
           hn::Store(splat(-1), kInt,

@@ -21,7 +21,7 @@ inline DrawGroupFunction triangles_function(const PixelPath& path) {
   }
 }
 
-/// Returns null for a path without groups.
+/// Null for Kind::pixel_rectangle, which has no groups.
 inline HWY_NOINLINE DrawGroupFunction draw_group_function(const PixelPath& path) {
   using Kind = PixelPath::Kind;
   switch (path.kind) {

@@ -1,4 +1,4 @@
-// Triangles with fragment operations: blocks of fragments, in order.
+// Triangles with fragment operations, block by block.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/draw_fragments.cpp"
 #include "framebuffer/lanes.h"
@@ -33,7 +33,7 @@ struct FragmentBlocks {
   }
 };
 
-/// The same with several samples, each with its edges and depth.
+/// Functor for for_each_block(): as FragmentBlocks, for several samples with edges and depth of each.
 struct SampledBlocks {
   FragmentTriangle& fragments;
   Edges32 edges[kMaxSamples];
@@ -86,7 +86,7 @@ HWY_INLINE void move_group(TriangleGroup& g, std::int32_t x, std::int32_t y) {
     }
 }
 
-/// Fills the record of triangle i for the pixels' centers, whether they are inside or not.
+/// Fills the record of triangle i for pixels' centres, which may lie outside the triangle.
 inline HWY_NOINLINE void fill_centered_triangle(ShadedTriangle& triangle, TileContext& context,
                                                 std::uint32_t draw_number, int i, bool back) {
   const TriangleGroup& g = context.memory.group;
@@ -102,24 +102,29 @@ inline HWY_NOINLINE void fill_centered_triangle(ShadedTriangle& triangle, TileCo
 struct SampledBounds {
   Edges32 edges;
   int x0, y0, x1, y1;
-  bool first = true;
+  bool is_empty = true;
+
   HWY_INLINE void include(const Edges32& of_sample, const TriangleGroup& g, int i) {
     for (int k = 0; k < 3; ++k) {
-      // An edge that any sample has dropped is dropped: the whole tile is inside of it there.
-      const bool dropped = of_sample.a[k] == 0 && of_sample.b[k] == 0;
-      if (first || dropped)
-        edges.a[k] = of_sample.a[k], edges.b[k] = of_sample.b[k], edges.e[k] = of_sample.e[k];
-      else if (edges.a[k] != 0 || edges.b[k] != 0) edges.e[k] = std::max(edges.e[k], of_sample.e[k]);
+      // An edge that is dropped for any sample is dropped: the whole tile is inside it there.
+      const bool is_dropped = of_sample.a[k] == 0 && of_sample.b[k] == 0;
+      if (is_empty || is_dropped) {
+        edges.a[k] = of_sample.a[k];
+        edges.b[k] = of_sample.b[k];
+        edges.e[k] = of_sample.e[k];
+      } else if (edges.a[k] != 0 || edges.b[k] != 0) {
+        edges.e[k] = std::max(edges.e[k], of_sample.e[k]);
+      }
     }
-    x0 = first ? g.x0[i] : std::min(x0, g.x0[i]);
-    y0 = first ? g.y0[i] : std::min(y0, g.y0[i]);
-    x1 = first ? g.x1[i] : std::max(x1, g.x1[i]);
-    y1 = first ? g.y1[i] : std::max(y1, g.y1[i]);
-    first = false;
+    x0 = is_empty ? g.x0[i] : std::min(x0, g.x0[i]);
+    y0 = is_empty ? g.y0[i] : std::min(y0, g.y0[i]);
+    x1 = is_empty ? g.x1[i] : std::max(x1, g.x1[i]);
+    y1 = is_empty ? g.y1[i] : std::max(y1, g.y1[i]);
+    is_empty = false;
   }
 };
 
-/// Edges of a sample's wide triangle that misses the tile: its own do not fit 32 bits.
+/// For a wide triangle that misses the tile at a sample: its edges there do not fit 32 bits.
 inline constexpr Edges32 kEmptyEdges{{0, 0, 0}, {0, 0, 0}, {-1, -1, -1}};
 
 void draw_fragments_msaa(TileContext& context, std::uint32_t draw_number) {
@@ -145,15 +150,16 @@ void draw_fragments_msaa(TileContext& context, std::uint32_t draw_number) {
       for (int s = 0; s < context.samples; ++s) {
         const TriangleGroup& g = context.memory.samples->group[s];
         blocks.edges[s] = tile_edges32(g, i);
-        Edges64 wide;
         blocks.depth[s].set_up(context.frame, draw, g, i, context.memory.source[i], context.tile_x,
                                context.tile_y);
-        if (g.needs_edges64[i] == 0 ||
-            tile_edges64(g, i, context.tile_x, context.tile_y, context.tile_size, blocks.edges[s], wide))
-          bounds.include(blocks.edges[s], g, i);
+        Edges64 wide;
+        const bool touches_tile =
+            g.needs_edges64[i] == 0 ||
+            tile_edges64(g, i, context.tile_x, context.tile_y, context.tile_size, blocks.edges[s], wide);
+        if (touches_tile) bounds.include(blocks.edges[s], g, i);
         else blocks.edges[s] = kEmptyEdges;
       }
-      if (bounds.first) return;
+      if (bounds.is_empty) return;
       const BlockOffsets offsets(bounds.edges);
       for_each_block(bounds.edges, offsets, bounds.x0, bounds.y0, bounds.x1, bounds.y1, blocks);
     });

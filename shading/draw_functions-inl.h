@@ -1,6 +1,6 @@
-// Kernels of a tile that call each other across translation units. Each is compiled in the file named with
-// it, for every instruction set; calls stay within one set. Calls cross units once per group of elements,
-// once per batch of points or once per block of fragments, never per pixel.
+// Kernels of a tile that call each other across translation units. Each is compiled for every instruction
+// set, in the file named above it; calls stay within one instruction set. A call across units happens once
+// per group of elements, per batch of points or per block of fragments, never per pixel.
 #if defined(TESSERA_SHADING_DRAW_FUNCTIONS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_DRAW_FUNCTIONS_INL_H_
 #undef TESSERA_SHADING_DRAW_FUNCTIONS_INL_H_
@@ -18,31 +18,43 @@ namespace HWY_NAMESPACE {
 /// Draws the elements in the workspace's group.
 using DrawGroupFunction = void (*)(TileContext&, std::uint32_t draw_number);
 
-// Functions for PixelPath::Kind::triangles, by type of depth.
-DrawGroupFunction triangles_function_no_depth(const PixelPath& path);  // draw_triangles_no_depth.cpp
-DrawGroupFunction triangles_function_unorm(const PixelPath& path);     // draw_triangles_unorm.cpp
-DrawGroupFunction triangles_function_unorm32(const PixelPath& path);   // draw_triangles_unorm32.cpp
-DrawGroupFunction triangles_function_float32(const PixelPath& path);   // draw_triangles_float32.cpp
-// The function for PixelPath::Kind::triangles_msaa.
-DrawGroupFunction triangles_msaa_function(const PixelPath& path);  // draw_triangles_msaa.cpp
+// PixelPath::Kind::triangles: draw_triangles_no_depth.cpp, draw_triangles_unorm.cpp,
+// draw_triangles_unorm32.cpp, draw_triangles_float32.cpp
+DrawGroupFunction triangles_function_no_depth(const PixelPath& path);
+DrawGroupFunction triangles_function_unorm(const PixelPath& path);
+DrawGroupFunction triangles_function_unorm32(const PixelPath& path);
+DrawGroupFunction triangles_function_float32(const PixelPath& path);
 
-void draw_textured_triangles(TileContext& context, std::uint32_t draw_number);  // draw_textured.cpp
-void draw_fragments(TileContext& context, std::uint32_t draw_number);           // draw_fragments.cpp
-void draw_fragments_msaa(TileContext& context, std::uint32_t draw_number);      // draw_fragments.cpp
-void draw_points(TileContext& context, std::uint32_t draw_number);              // draw_points_lines.cpp
-void draw_lines(TileContext& context, std::uint32_t draw_number);               // draw_points_lines.cpp
-void draw_point_fragments(TileContext& context, std::uint32_t draw_number);     // draw_points_lines.cpp
-void draw_line_fragments(TileContext& context, std::uint32_t draw_number);      // draw_points_lines.cpp
+// PixelPath::Kind::triangles_msaa: draw_triangles_msaa.cpp
+DrawGroupFunction triangles_msaa_function(const PixelPath& path);
+
+// draw_textured.cpp
+void draw_textured_triangles(TileContext& context, std::uint32_t draw_number);
+
+// draw_fragments.cpp
+void draw_fragments(TileContext& context, std::uint32_t draw_number);
+void draw_fragments_msaa(TileContext& context, std::uint32_t draw_number);
+
+// draw_points_lines.cpp
+void draw_points(TileContext& context, std::uint32_t draw_number);
+void draw_lines(TileContext& context, std::uint32_t draw_number);
+void draw_point_fragments(TileContext& context, std::uint32_t draw_number);
+void draw_line_fragments(TileContext& context, std::uint32_t draw_number);
+
+// draw_pixel_rectangle.cpp
+
 /// Draws a bitmap or an image, which has no groups.
-void draw_pixel_rectangle(TileContext& context, std::uint32_t draw_number);  // draw_pixel_rectangle.cpp
+void draw_pixel_rectangle(TileContext& context, std::uint32_t draw_number);
 
-/// Shades what was collected in the blocks of [x0, x1] x [y0, y1], pixels of the tile, and clears the
-/// visibility buffer there. @pre one sample per pixel
-void shade_visible(TileContext& context, int x0, int y0, int x1, int y1);  // deferred_shading.cpp
-/// Shades what was collected at all samples of the tile, and clears their visibility buffers.
-void shade_visible_msaa(TileContext& context);  // deferred_shading_msaa.cpp
+// deferred_shading.cpp, deferred_shading_msaa.cpp
 
-/// Shades everything that was collected in the tile.
+/// Shades the visible triangles in the blocks that [x0, x1] x [y0, y1], pixels of the tile, touches, and
+/// clears the visibility buffer there. @pre one sample per pixel
+void shade_visible(TileContext& context, int x0, int y0, int x1, int y1);
+/// Shades the visible triangles at all samples of the tile, and clears the samples' visibility buffers.
+void shade_visible_msaa(TileContext& context);
+
+/// Shades all visible triangles of the tile and removes them.
 HWY_INLINE void shade_whole_tile(TileContext& context) {
   if (!context.memory.visible_triangles.empty()) {
     if (context.samples > 1) shade_visible_msaa(context);

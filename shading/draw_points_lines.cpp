@@ -1,5 +1,5 @@
 // Points and lines in a tile. Few of their pixels share a block, so coverage and depth are evaluated per
-// pixel. Plain colors are stored at once; all others go through FragmentTriangle, block by block.
+// pixel. Plain colours are stored immediately; all others go through FragmentTriangle, block by block.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/draw_points_lines.cpp"
 #include "framebuffer/lanes.h"
@@ -15,20 +15,21 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Depth offset of an edge or a corner of a polygon.
+/// Depth offset of element i, an edge or a corner of a polygon; 0 for other elements.
 HWY_INLINE double depth_offset_of(const TileContext& context, const TileDraw& draw, int i) {
   return draw.depth_offsets != nullptr ? draw.depth_offsets[context.memory.source[i]] : 0.0;
 }
 
-/// Fills the record for shading: exact "edges" weigh the two ends as those of a wide triangle whose third
-/// vertex has no weight.
+/// Fills the record for shading like that of a wide triangle whose third vertex has no weight: edges 0 and 1,
+/// which are exact, are the weights of the two ends.
 HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileContext& context, std::uint32_t draw, int i,
                                           bool back) {
   const TriangleGroup& g = context.memory.group;
   const bool is_line = context.frame.draws[draw].topology == Topology::lines;
   const int second = is_line ? 1 : 0;
-  const double dx = g.x[second][i] - g.x[0][i], dy = g.y[second][i] - g.y[0][i],
-               squared_length = dx * dx + dy * dy;
+  const double dx = g.x[second][i] - g.x[0][i];
+  const double dy = g.y[second][i] - g.y[0][i];
+  const double squared_length = dx * dx + dy * dy;
   const LinePoint first = center_of(context, 0, 0);
   Edges64 wide{};
   wide.a[1] = kSubpixelScale * dx;
@@ -52,7 +53,7 @@ HWY_INLINE void fill_shaded_point_or_line(ShadedTriangle& t, TileContext& contex
   store_edges64(t, context.memory, wide);
 }
 
-/// Stores packed colors under the depth test and the write mask.
+/// Stores packed colours under the depth test and the write mask.
 class PackedPixelWriter {
  public:
   HWY_INLINE PackedPixelWriter(TileContext& context, const TileDraw& draw)
@@ -70,32 +71,33 @@ class PackedPixelWriter {
     color ^= (color ^ packed_color) & draw_.write_mask;
     ++context_.counts.shaded_pixels;
   }
-  /// Stores one vector of distinct pixels. Pixels that are not `inside` or fail the depth test are written to
+  /// Stores one vector of distinct pixels. Lanes that are not `inside` or fail the depth test are written to
   /// kDiscardPixel: a branch on them would be mispredicted.
   HWY_INLINE void store(Int x, Int y, LaneMask inside, Int keys, Int packed) const {
     const Int index = hn::IfThenElse(inside, context_.pixel_indices(x, y), splat(kDiscardPixel));
-    Int passed = hn::VecFromMask(kInt, inside);
-    if (uses_depth_)
-      passed = hn::And(
-          passed,
-          hn::VecFromMask(
-              kInt, compare_lanes(
-                        keys, draw_.depth_test,
-                        load_words(reinterpret_cast<const std::uint32_t*>(context_.memory.depth), index))));
-    const auto stays = hn::MaskFromVec(passed);
+    Int passed_lanes = hn::VecFromMask(kInt, inside);
+    if (uses_depth_) {
+      const Int stored = load_words(reinterpret_cast<const std::uint32_t*>(context_.memory.depth), index);
+      passed_lanes =
+          hn::And(passed_lanes, hn::VecFromMask(kInt, compare_lanes(keys, draw_.depth_test, stored)));
+    }
+    const auto passed = hn::MaskFromVec(passed_lanes);
     if (draw_.write_mask != 0xffffffffu) {
       const Int stored = load_words(context_.color, index);
-      packed = hn::Xor(stored,
-                       hn::And(hn::Xor(stored, packed), splat(static_cast<std::int32_t>(draw_.write_mask))));
+      const Int changed =
+          hn::And(hn::Xor(stored, packed), splat(static_cast<std::int32_t>(draw_.write_mask)));
+      packed = hn::Xor(stored, changed);
     }
-    alignas(64) std::int32_t at[kLanes], key[kLanes], packed_color[kLanes];
-    hn::Store(hn::IfThenElse(stays, index, splat(kDiscardPixel)), kInt, at);
+    alignas(64) std::int32_t at[kLanes];
+    alignas(64) std::int32_t key[kLanes];
+    alignas(64) std::int32_t packed_color[kLanes];
+    hn::Store(hn::IfThenElse(passed, index, splat(kDiscardPixel)), kInt, at);
     hn::Store(keys, kInt, key);
     hn::Store(packed, kInt, packed_color);
     if (uses_depth_ && draw_.depth_write)
       for (int l = 0; l < kLanes; ++l) context_.memory.depth[at[l]] = key[l];
     for (int l = 0; l < kLanes; ++l) context_.color[at[l]] = static_cast<std::uint32_t>(packed_color[l]);
-    context_.counts.shaded_pixels += hn::CountTrue(kInt, stays);
+    context_.counts.shaded_pixels += hn::CountTrue(kInt, passed);
   }
 
  private:
@@ -104,18 +106,18 @@ class PackedPixelWriter {
   bool uses_depth_;
 };
 
-/// Stores a point of one packed color.
+/// Stores a point of one packed colour.
 HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext& context,
                              const TileDraw& draw, int i, const PointShape& point, bool back) {
-  const std::int32_t key = pixels.uses_depth()
-                               ? point_key(context.frame.depth_format, context.memory.group.z[0][i],
-                                           depth_offset_of(context, draw, i))
-                               : 0;
+  std::int32_t key = 0;
+  if (pixels.uses_depth())
+    key = point_key(context.frame.depth_format, context.memory.group.z[0][i],
+                    depth_offset_of(context, draw, i));
   const std::uint32_t packed_color = packed_color_of(context, draw, i, back);
   point.for_each([&](int x, int y) HWY_ATTR { pixels.store_one(x, y, key, packed_color); });
 }
 
-/// Stores a line of one packed color, or with colors interpolated along it.
+/// Stores a line of one packed colour, or with colours interpolated along it.
 HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext& context,
                              const TileDraw& draw, int i, const LineShape& line, bool back) {
   const LineValues values(context, i, 1, depth_offset_of(context, draw, i));
@@ -133,21 +135,21 @@ HWY_INLINE void write_packed(const PackedPixelWriter& pixels, const TileContext&
 }
 
 /// Draws the fragments of the blocks that element i of the group covers.
-inline HWY_NOINLINE void draw_covered_blocks(BlockCoverage& bits, std::uint32_t draw_number, int i,
+inline HWY_NOINLINE void draw_covered_blocks(BlockCoverage& coverage, std::uint32_t draw_number, int i,
                                              const LineValues& values, bool back) {
-  TileContext& context = bits.context;
-  if (bits.blocks.count == 0) return;
+  TileContext& context = coverage.context;
+  if (coverage.blocks.count == 0) return;
   ShadedTriangle shaded;
   fill_shaded_point_or_line(shaded, context, draw_number, i, back);
   draw_fragments_of(context, i, shaded,
-                    [&](FragmentTriangle& fragments) HWY_ATTR { bits.draw(fragments, values); });
+                    [&](FragmentTriangle& fragments) HWY_ATTR { coverage.draw(fragments, values); });
 }
 
 HWY_INLINE bool is_back_element(const TileContext& context, const TileDraw& draw, int i) {
   return draw.facing != nullptr && draw.facing[context.memory.source[i]] == Facing::back;
 }
 
-/// Stores the pixels of a group, without any other step.
+/// Stores the pixels of a group immediately.
 /// @param shape_of  shape_of(i): the shape of element i
 template <class ShapeOf>
 HWY_INLINE void store_elements(TileContext& context, std::uint32_t draw_number, const ShapeOf& shape_of) {
@@ -166,10 +168,10 @@ HWY_INLINE void draw_element_fragments(TileContext& context, std::uint32_t draw_
   const TileDraw& draw = context.frame.draws[draw_number];
   for (int i = 0; i < context.memory.group.count; ++i) {
     const auto shape = shape_of(i);
-    BlockCoverage bits{context, context.memory.touched};
-    if (context.samples == 1) shape.for_each([&](int x, int y) HWY_ATTR { bits.add(x, y, 1); });
-    else shape.cover(bits);
-    draw_covered_blocks(bits, draw_number, i,
+    BlockCoverage coverage{context, context.memory.touched};
+    if (context.samples == 1) shape.for_each([&](int x, int y) HWY_ATTR { coverage.add(x, y, 1); });
+    else shape.cover(coverage);
+    draw_covered_blocks(coverage, draw_number, i,
                         LineValues(context, i, second, depth_offset_of(context, draw, i)),
                         is_back_element(context, draw, i));
   }
@@ -188,7 +190,7 @@ struct PointShapes {
 struct LineShapes {
   const TileContext& context;
   float width;
-  LineSteps steps;  // steps of the group; with one sample
+  LineSteps steps;  // steps of the group; set up only for frames with one sample
 
   HWY_INLINE LineShapes(const TileContext& tile_context, const TileDraw& draw)
       : context(tile_context), width(draw.size) {

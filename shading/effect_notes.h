@@ -12,7 +12,7 @@ class EffectNotes {
   /// @param list  receives the notes; null discards them, as when a frame is rendered
   EffectNotes(std::vector<EffectNote>* list) : list_(list) {}
 
-  /// Collects into the same list notes about the back faces' lighting.
+  /// Adds notes about the lighting of back faces to the same list.
   EffectNotes for_back_faces() const {
     EffectNotes notes(list_);
     notes.back_faces_ = true;

@@ -1,5 +1,5 @@
-// Depth keys of blocks for draws with operations: any format, with or without an offset. The format is
-// decided at run time, once per block, so that the long code of fragments is compiled once for all.
+// Depth keys of blocks for draws with fragment operations: any format, with or without polygon offset. The
+// format is tested at run time, once per block, so that the long code of fragments is compiled only once.
 #if defined(TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_
 #undef TESSERA_SHADING_FRAGMENT_DEPTH_INL_H_
@@ -16,9 +16,10 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
+/// Depth of one triangle.
 class FragmentDepth {
  public:
-  /// @pre the group's depth is set up
+  /// @pre set_up_depth() has run for the group
   /// @param i       triangle of the group
   /// @param source  its number in the draw
   HWY_NOINLINE void set_up(const TileFrame& frame, const TileDraw& draw, const TriangleGroup& g, int i,
@@ -26,24 +27,27 @@ class FragmentDepth {
     if (!draw.path.uses_depth()) return;
     const bool has_offset =
         draw.depth_offsets != nullptr || draw.offset_factor != 0 || draw.offset_units != 0;
-    const auto move = [&](auto& depth) HWY_ATTR {
-      if (draw.depth_offsets != nullptr && !std::isnan(draw.depth_offsets[source]))
+    const auto apply_offset = [&](auto& depth) HWY_ATTR {
+      if (draw.depth_offsets != nullptr && !std::isnan(draw.depth_offsets[source])) {
         depth.set_polygon_offset_value(draw.depth_offsets[source]);
-      else if (has_offset) depth.set_polygon_offset(g, i, draw.offset_factor, draw.offset_units);
+      } else if (has_offset) {
+        depth.set_polygon_offset(g, i, draw.offset_factor, draw.offset_units);
+      }
     };
     if (frame.depth_format == DepthFormat::float32) {
       format_ = has_offset ? Format::offset_float32 : Format::float32;
       float32_.set_up(g, i, tile_x, tile_y, frame.depth_format);
-      move(float32_);
+      apply_offset(float32_);
     } else {
-      format_ =
-          has_offset || frame.depth_format == DepthFormat::unorm32 ? Format::offset_unorm : Format::unorm;
+      const bool is_unorm32 = frame.depth_format == DepthFormat::unorm32;
+      format_ = has_offset || is_unorm32 ? Format::offset_unorm : Format::unorm;
       unorm_.set_up(g, i, tile_x, tile_y, frame.depth_format);
-      move(unorm_);
+      apply_offset(unorm_);
       unorm_.prepare_blocks();
     }
   }
-  /// Writes the keys of the block's pixels; nothing without depth.
+
+  /// Writes the keys of the block's pixels, one vector per chunk. Without depth it writes nothing.
   HWY_NOINLINE void block_keys(int bx, int by, Int* keys) const {
     switch (format_) {
       case Format::none: return;
@@ -55,7 +59,7 @@ class FragmentDepth {
   }
 
  private:
-  // offset_unorm also serves all unorm32 depth, with an offset of 0.
+  // offset_unorm also serves unorm32 depth without an offset.
   enum class Format : std::uint8_t { none, unorm, offset_unorm, float32, offset_float32 };
 
   template <class Depth>

@@ -19,7 +19,9 @@ HWY_INLINE LaneMask no_lanes() { return hn::Gt(hn::Zero(kInt), hn::Zero(kInt)); 
 
 template <class Vector>
 HWY_INLINE auto compare_lanes(Vector a, Compare op, Vector b) {
-  const auto less = hn::Lt(a, b), equal = hn::Eq(a, b), greater = hn::Lt(b, a);
+  const auto less = hn::Lt(a, b);
+  const auto equal = hn::Eq(a, b);
+  const auto greater = hn::Lt(b, a);
   switch (op) {
     case Compare::never: return hn::And(less, greater);
     case Compare::less: return less;
@@ -34,18 +36,18 @@ HWY_INLINE auto compare_lanes(Vector a, Compare op, Vector b) {
 
 /// Lanes that pass the stencil test.
 HWY_INLINE LaneMask stencil_passes(const StencilTestConstants& stencil, Int stored) {
-  const auto first = splat(static_cast<std::int32_t>(stencil.passing.first)),
-             count = splat(static_cast<std::int32_t>(stencil.passing.count));
-  return hn::RebindMask(kInt, hn::Lt(hn::BitCast(kUint, hn::Sub(hn::And(stored, splat(stencil.mask)), first)),
-                                     hn::BitCast(kUint, count)));
+  const Int first = splat(static_cast<std::int32_t>(stencil.passing.first));
+  const Int count = splat(static_cast<std::int32_t>(stencil.passing.count));
+  const Int from_first = hn::Sub(hn::And(stored, splat(stencil.mask)), first);
+  return hn::RebindMask(kInt, hn::Lt(hn::BitCast(kUint, from_first), hn::BitCast(kUint, count)));
 }
 
-HWY_INLINE Int stencil_op_lanes(const StencilOpConstants& step, Int stored) {
-  const Int value = hn::Add(hn::Xor(hn::And(stored, splat(step.keep)), splat(step.flip)), splat(step.add));
-  return hn::Min(hn::Max(value, splat(step.min_value)), splat(step.max_value));
+HWY_INLINE Int stencil_op_lanes(const StencilOpConstants& op, Int stored) {
+  const Int value = hn::Add(hn::Xor(hn::And(stored, splat(op.keep)), splat(op.flip)), splat(op.add));
+  return hn::Min(hn::Max(value, splat(op.min_value)), splat(op.max_value));
 }
 
-/// The new stencil values.
+/// Stencil values after the tests.
 /// @param failed   lanes that failed the stencil test
 /// @param zfailed  lanes that passed it and failed the depth test
 /// @param zpassed  lanes that passed both
@@ -63,14 +65,13 @@ struct Colors {
   Float c[4];  // r g b a
 };
 
-HWY_INLINE Float clamped_unit(Float c) {
-  // In this order a NaN becomes 0.
-  return lesser_of(greater_of(c, hn::Zero(kFloat)), splat(1.0f));
-}
+/// Clamps to 0..1. A NaN becomes 0.
+HWY_INLINE Float clamped_unit(Float c) { return lesser_of(greater_of(c, hn::Zero(kFloat)), splat(1.0f)); }
 
-/// At least 0; 0 for a NaN.
+/// Clamps to 0 or more. A NaN becomes 0.
 HWY_INLINE Float clamped_below(Float c) { return hn::Max(c, hn::Zero(kFloat)); }
 
+/// Component 0..1 of packed colours; 1 if it has no bits.
 HWY_INLINE Float component_from(Int packed, int shift, int bits) {
   if (bits == 0) return splat(1.0f);
   const Int level = hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, packed), shift)),
@@ -109,8 +110,8 @@ HWY_INLINE Float blend_factor_lanes(BlendFactor factor, int c, const Colors& s, 
     case BlendFactor::constant_alpha: return splat(constant[3]);
     case BlendFactor::one_minus_constant_alpha: return hn::Sub(one, splat(constant[3]));
     default: {
-      const Float rest = hn::Sub(one, d.c[3]);
-      return c == 3 ? one : lesser_of(rest, s.c[3]);
+      const Float one_minus_dst_alpha = hn::Sub(one, d.c[3]);
+      return c == 3 ? one : lesser_of(one_minus_dst_alpha, s.c[3]);
     }
   }
 }
@@ -118,22 +119,26 @@ HWY_INLINE Float blend_factor_lanes(BlendFactor factor, int c, const Colors& s, 
 HWY_INLINE Colors blend_lanes(const FragmentOps& ops, const Colors& s, const Colors& d) {
   Colors out;
   for (int c = 0; c < 4; ++c) {
-    const Float sf = blend_factor_lanes(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant),
-                df = blend_factor_lanes(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
-    Float sum;
+    const Float s_factor = blend_factor_lanes(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant);
+    const Float d_factor = blend_factor_lanes(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
+    Float result;
     switch (ops.equation) {
-      case BlendEquation::add: sum = mul_add(s.c[c], sf, hn::Mul(d.c[c], df)); break;
-      case BlendEquation::subtract: sum = mul_add(s.c[c], sf, hn::Neg(hn::Mul(d.c[c], df))); break;
-      case BlendEquation::reverse_subtract: sum = neg_mul_add(s.c[c], sf, hn::Mul(d.c[c], df)); break;
-      case BlendEquation::min: sum = lesser_of(d.c[c], s.c[c]); break;
-      default: sum = greater_of(d.c[c], s.c[c]); break;
+      case BlendEquation::add: result = mul_add(s.c[c], s_factor, hn::Mul(d.c[c], d_factor)); break;
+      case BlendEquation::subtract:
+        result = mul_add(s.c[c], s_factor, hn::Neg(hn::Mul(d.c[c], d_factor)));
+        break;
+      case BlendEquation::reverse_subtract:
+        result = neg_mul_add(s.c[c], s_factor, hn::Mul(d.c[c], d_factor));
+        break;
+      case BlendEquation::min: result = lesser_of(d.c[c], s.c[c]); break;
+      default: result = greater_of(d.c[c], s.c[c]); break;
     }
-    out.c[c] = clamped_unit(sum);
+    out.c[c] = clamped_unit(result);
   }
   return out;
 }
 
-/// Packs clamped colors of an RGB or luminance layout.
+/// Packs clamped colours in an RGB or luminance layout.
 HWY_INLINE Int pack_colors(const ColorLayout& layout, const Colors& colors, Float threshold) {
   const auto level = [&](Float x, int bits) HWY_ATTR {
     return truncate(mul_add(x, splat(static_cast<float>((1 << bits) - 1)), threshold));
@@ -141,19 +146,21 @@ HWY_INLINE Int pack_colors(const ColorLayout& layout, const Colors& colors, Floa
   Int packed = hn::Zero(kInt);
   if (layout.alpha_bits != 0) packed = hn::ShiftLeftSame(level(colors.c[3], layout.alpha_bits), layout.bits);
   if (layout.luminance) {
-    const Float l = mul_add(splat(kLumaR), colors.c[0],
-                            mul_add(splat(kLumaG), colors.c[1], hn::Mul(splat(kLumaB), colors.c[2])));
-    return hn::Or(packed, level(clamped_unit(l), layout.bits));
+    const Float luminance = mul_add(splat(kLumaR), colors.c[0],
+                                    mul_add(splat(kLumaG), colors.c[1], hn::Mul(splat(kLumaB), colors.c[2])));
+    return hn::Or(packed, level(clamped_unit(luminance), layout.bits));
   }
   packed = hn::Or(packed, hn::ShiftLeftSame(level(colors.c[0], layout.r_bits), layout.r_shift()));
   packed = hn::Or(packed, hn::ShiftLeftSame(level(colors.c[1], layout.g_bits), layout.g_shift()));
   return hn::Or(packed, level(colors.c[2], layout.b_bits));
 }
 
-/// pack_colors() for 8 bits each, rounded to nearest.
+/// pack_colors() for 8 bits per component and no alpha, rounded to nearest.
 HWY_INLINE Int pack_rgb8(const Colors& colors) {
-  const auto level = [&](int c)
-                         HWY_ATTR { return truncate(mul_add(colors.c[c], splat(255.0f), splat(0.5f))); };
+  const auto level = [&](int c) HWY_ATTR {
+    const Float scaled = mul_add(colors.c[c], splat(255.0f), splat(0.5f));
+    return truncate(scaled);
+  };
   return hn::Or(hn::Or(hn::ShiftLeft<16>(level(0)), hn::ShiftLeft<8>(level(1))), level(2));
 }
 

@@ -10,11 +10,11 @@ void set_dither(FragmentOps& ops, int n, int frame_height) {
   for (int size = 1; size < n; size *= 2)
     for (int y = 0; y < size; ++y)
       for (int x = 0; x < size; ++x) {
-        const int m = 4 * pattern[y][x];
-        pattern[y][x] = m;
-        pattern[y][x + size] = m + 2;
-        pattern[y + size][x] = m + 3;
-        pattern[y + size][x + size] = m + 1;
+        const int first = 4 * pattern[y][x];
+        pattern[y][x] = first;
+        pattern[y][x + size] = first + 2;
+        pattern[y + size][x] = first + 3;
+        pattern[y + size][x + size] = first + 1;
       }
   ops.dither = n > 1;
   for (int y = 0; y < kDitherSize; ++y)

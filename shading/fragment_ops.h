@@ -9,17 +9,21 @@
 
 namespace tessera::detail {
 
-/// Passes where (reference & mask) func (stored & mask).
+/// Stencil test and actions of one face. Passes where (reference & mask) func (stored & mask).
+/// Unlike StencilFace of the public interface, its values are signed, for lanes, and limited to the bits of
+/// the stencil buffer.
 struct StencilSide {
   Compare func = Compare::always;
-  std::int32_t reference = 0;  ///< clamped to the buffer's range
+  std::int32_t reference = 0;
   std::int32_t mask = 0xff;
-  StencilOp fail = StencilOp::keep, zfail = StencilOp::keep, zpass = StencilOp::keep;
+  StencilOp fail = StencilOp::keep;   ///< the stencil test fails
+  StencilOp zfail = StencilOp::keep;  ///< the stencil test passes, the depth test fails
+  StencilOp zpass = StencilOp::keep;  ///< both pass
   std::int32_t write_mask = 0xff;
 
   constexpr bool writes() const {
-    return write_mask != 0 &&
-           (fail != StencilOp::keep || zfail != StencilOp::keep || zpass != StencilOp::keep);
+    const bool has_action = fail != StencilOp::keep || zfail != StencilOp::keep || zpass != StencilOp::keep;
+    return has_action && write_mask != 0;
   }
 };
 
@@ -35,22 +39,25 @@ struct FragmentOps {
   std::int32_t stencil_max = 0xff;  ///< 2^bits - 1
 
   bool blend = false;
-  BlendFactor src_color = BlendFactor::src_alpha, dst_color = BlendFactor::one_minus_src_alpha,
-              src_alpha = BlendFactor::src_alpha, dst_alpha = BlendFactor::one_minus_src_alpha;
+  BlendFactor src_color = BlendFactor::src_alpha;
+  BlendFactor dst_color = BlendFactor::one_minus_src_alpha;
+  BlendFactor src_alpha = BlendFactor::src_alpha;
+  BlendFactor dst_alpha = BlendFactor::one_minus_src_alpha;
   BlendEquation equation = BlendEquation::add;
   std::array<float, 4> constant{};  ///< 0..1
 
   bool dither = false;
-  /// Rounding offset added before truncation to a level, by raster row and column; without dither 0.5.
+  /// Added before truncation to a level, by raster row and column modulo kDitherSize. Without dither all 0.5.
   float threshold[kDitherSize][kDitherSize] = {};
-  /// Index buffers: the color is moved by (threshold - 0.5) * palette_spread before the palette search.
+  /// Index buffers: (threshold - 0.5) * palette_spread is added to the colour before the palette search.
   float palette_spread = 0;
 
   LogicOp logic = LogicOp::copy;
 };
 
-/// Sets the thresholds of ordered dither of size n (2, 4, 8; 1: none): M_1 = [0], M_2n = [[4 M_n, 4 M_n + 2],
-/// [4 M_n + 3, 4 M_n + 1]], rows from the window's lower edge, (M[y mod n][x mod n] + 0.5) / n^2.
+/// Sets the thresholds of ordered dither of size n (2, 4, 8; 1: no dither):
+///   M_1 = [0], M_2n = [[4 M_n, 4 M_n + 2], [4 M_n + 3, 4 M_n + 1]]
+///   threshold = (M_n[y mod n][x mod n] + 0.5) / n^2, rows from the window's lower edge
 void set_dither(FragmentOps& ops, int n, int frame_height);
 
 }  // namespace tessera::detail

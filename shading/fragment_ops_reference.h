@@ -49,15 +49,14 @@ constexpr std::uint32_t logic_op_reference(LogicOp logic, std::uint32_t s, std::
 
 /// A level of b bits as a component 0..1; 1 if there are no bits.
 inline float component_of(std::uint32_t level, int bits) {
-  return bits == 0 ? 1.0f
-                   : static_cast<float>(static_cast<std::int32_t>(level)) *
-                         (1.0f / static_cast<float>((1 << bits) - 1));
+  if (bits == 0) return 1.0f;
+  return static_cast<float>(static_cast<std::int32_t>(level)) * (1.0f / static_cast<float>((1 << bits) - 1));
 }
 
-/// Unpacks a stored color.
-inline Rgba unpack_color_reference(const ColorLayout& layout, std::uint32_t word) {
+/// Unpacks a stored colour.
+inline Rgba unpack_color_reference(const ColorLayout& layout, std::uint32_t packed) {
   const auto field = [&](int shift, int bits) {
-    return component_of(word >> shift & ((1u << bits) - 1), bits);
+    return component_of(packed >> shift & ((1u << bits) - 1), bits);
   };
   const float a = layout.alpha_bits == 0 ? 1.0f : field(layout.bits, layout.alpha_bits);
   if (layout.luminance) {
@@ -89,18 +88,26 @@ inline float blend_factor_reference(BlendFactor factor, std::size_t c, const Rgb
   }
 }
 
-/// Clamped to 0..1.
+inline float blend_equation_reference(BlendEquation equation, float s, float s_factor, float d,
+                                      float d_factor) {
+  switch (equation) {
+    case BlendEquation::add: return std::fma(s, s_factor, d * d_factor);
+    case BlendEquation::subtract: return std::fma(s, s_factor, -(d * d_factor));
+    case BlendEquation::reverse_subtract: return std::fma(-s, s_factor, d * d_factor);
+    case BlendEquation::min: return std::min(s, d);
+    default: return std::max(s, d);
+  }
+}
+
+/// The result is clamped to 0..1.
 inline Rgba blend_reference(const FragmentOps& ops, const Rgba& s, const Rgba& d) {
   Rgba out;
   for (std::size_t c = 0; c < 4; ++c) {
-    const float sf = blend_factor_reference(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant),
-                df = blend_factor_reference(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
-    const float sum = ops.equation == BlendEquation::add                ? std::fma(s[c], sf, d[c] * df)
-                      : ops.equation == BlendEquation::subtract         ? std::fma(s[c], sf, -(d[c] * df))
-                      : ops.equation == BlendEquation::reverse_subtract ? std::fma(-s[c], sf, d[c] * df)
-                      : ops.equation == BlendEquation::min              ? std::min(s[c], d[c])
-                                                                        : std::max(s[c], d[c]);
-    out[c] = clamp_unit(sum);
+    const float s_factor =
+        blend_factor_reference(c == 3 ? ops.src_alpha : ops.src_color, c, s, d, ops.constant);
+    const float d_factor =
+        blend_factor_reference(c == 3 ? ops.dst_alpha : ops.dst_color, c, s, d, ops.constant);
+    out[c] = clamp_unit(blend_equation_reference(ops.equation, s[c], s_factor, d[c], d_factor));
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// Comparison and packing of a single fragment, for code without lanes: clears, small triangles, accumulation.
+// Comparison, clamping and packing of a single value or colour, for code without lanes.
 #pragma once
 
 #include <array>
@@ -26,20 +26,26 @@ constexpr bool compares(Number a, Compare op, Number b) {
 
 using Rgba = std::array<float, 4>;
 
-inline float clamp_unit(float c) { return c > 0.0f ? (c < 1.0f ? c : 1.0f) : 0.0f; }
+/// Clamps to 0..1. A NaN becomes 0.
+inline float clamp_unit(float c) {
+  if (!(c > 0.0f)) return 0.0f;
+  return c < 1.0f ? c : 1.0f;
+}
 
-/// Packs a clamped color: each component is floor(c (2^bits - 1) + t). RGB and luminance layouts.
+/// Packs a clamped colour: each component is floor(c (2^bits - 1) + t). RGB and luminance layouts.
 inline std::uint32_t pack_color(const ColorLayout& layout, const Rgba& c, float t) {
   const auto level = [&](float x, int bits) {
     return static_cast<std::uint32_t>(
         static_cast<std::int32_t>(std::fma(x, static_cast<float>((1 << bits) - 1), t)));
   };
   const std::uint32_t alpha = layout.alpha_bits == 0 ? 0 : level(c[3], layout.alpha_bits) << layout.bits;
-  if (layout.luminance)
-    return alpha |
-           level(clamp_unit(std::fma(kLumaR, c[0], std::fma(kLumaG, c[1], kLumaB * c[2]))), layout.bits);
-  return alpha | level(c[0], layout.r_bits) << layout.r_shift() |
-         level(c[1], layout.g_bits) << layout.g_shift() | level(c[2], layout.b_bits);
+  if (layout.luminance) {
+    const float luminance = std::fma(kLumaR, c[0], std::fma(kLumaG, c[1], kLumaB * c[2]));
+    return alpha | level(clamp_unit(luminance), layout.bits);
+  }
+  const std::uint32_t red = level(c[0], layout.r_bits) << layout.r_shift();
+  const std::uint32_t green = level(c[1], layout.g_bits) << layout.g_shift();
+  return alpha | red | green | level(c[2], layout.b_bits);
 }
 
 }  // namespace tessera::detail

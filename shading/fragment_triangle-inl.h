@@ -1,5 +1,5 @@
-// Blocks of fragments of one triangle, point, line or rectangle of pixels: the tests and operations that a
-// draw needs besides the depth test. The same code for every depth format.
+// Blocks of fragments of one triangle, point, line or rectangle of pixels: all tests and operations of a
+// draw. The code is the same for every depth format.
 #if defined(TESSERA_SHADING_FRAGMENT_TRIANGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_FRAGMENT_TRIANGLE_INL_H_
 #undef TESSERA_SHADING_FRAGMENT_TRIANGLE_INL_H_
@@ -22,9 +22,10 @@ struct BlockFragments {
   Int keys[kChunksPerBlock];
 };
 
-/// Operations of draws that have none and whose fragments are drawn block by block all the same.
+/// For draws without operations whose primitives are drawn as blocks of fragments.
 inline constexpr FragmentOps kNoOperations{};
 
+/// Draws the fragments of one primitive, block by block. `triangle` is its record for shading.
 struct FragmentTriangle {
   TileContext& context;
   const TileDraw& draw;
@@ -33,16 +34,17 @@ struct FragmentTriangle {
   const int face;  // 0 front, 1 back
   const bool has_depth;
   const bool evaluates_colors;
-  bool has_given_colors = false;        // colors are flat_color or block_colors
-  StencilTestConstants stencil{};       // constants of this face, if there is a test
-  std::int32_t id = 0;                  // ColorWrite::deferred: number of the triangle
-  std::uint32_t packed_color = 0;       // ColorWrite::constant
-  const float* flat_color = nullptr;    // r g b a, or an index; null: not flat
-  const float* block_colors = nullptr;  // colors of a block: all r, then all g, b and a; null: the triangle's
-  bool visible = false;                 // a fragment has passed the tests
-  const DrawTexture* texture;           // null: none
-  TextureCoordinates coordinates{};     // for a texture with levels
-  BatchSurface surface;                 // if evaluates_colors
+  bool has_given_colors = false;      // colours are flat_color or block_colors
+  StencilTestConstants stencil{};     // constants of this face, if there is a test
+  std::int32_t id = 0;                // ColorWrite::deferred: number of the triangle
+  std::uint32_t packed_color = 0;     // ColorWrite::constant
+  const float* flat_color = nullptr;  // r g b a, or an index; null: not flat
+  // Colours of the current block: all r, then all g, b and a; null: the triangle's.
+  const float* block_colors = nullptr;
+  bool visible = false;              // a fragment has passed the tests
+  const DrawTexture* texture;        // null: none
+  TextureCoordinates coordinates{};  // for a texture with levels
+  BatchSurface surface;              // if evaluates_colors
 
   HWY_INLINE FragmentTriangle(TileContext& tile_context, const ShadedTriangle& shaded)
       : context(tile_context),
@@ -55,12 +57,12 @@ struct FragmentTriangle {
         texture(texture_of(draw, shaded.back)) {
     if (ops.stencil) stencil = stencil_test_constants(ops.faces[face], ops.stencil_max);
   }
-  /// Prepares the evaluation of colors; after flat_color and block_colors are set.
+  /// Prepares the evaluation of colours. @pre flat_color and block_colors are set
   HWY_INLINE void begin_colors() {
     if (!evaluates_colors) return;
     begin_surface(context, surface, triangle);
-    surface.gathers_coordinates = false;  // an alpha test may sample the texture before
-    // Flat draws keep their color for the alpha test while a capture of normals lights them.
+    surface.gathers_coordinates = false;  // sample_block() samples the texture, possibly before the tests
+    // Flat draws keep their colour for the alpha test while a capture of normals lights them.
     const bool is_lit = surface.program != nullptr;
     has_given_colors = !is_lit && (flat_color != nullptr || block_colors != nullptr);
     if (has_given_colors) surface.attribute_count = 0;
@@ -76,7 +78,7 @@ struct FragmentTriangle {
   void operator()(int bx, int by, const BlockFragments* blocks);  // fragment_triangle.cpp
 
  private:
-  /// Draws of Kind::triangles_msaa with interpolated colors come here with wide triangles.
+  /// Interpolated colours: wide triangles of Kind::triangles_msaa are drawn here.
   static HWY_INLINE bool needs_colors(const TileDraw& draw) {
     return draw.path.color_write == ColorWrite::evaluated ||
            draw.path.color_write == ColorWrite::interpolated || draw.captures_normals;
@@ -88,16 +90,16 @@ struct FragmentTriangle {
   void store_ids(int index, const std::uint32_t* passed);
   void evaluate_block(int bx, int by, std::uint32_t bits);
   Barycentric at(int bx, int by, int chunk) const;
-  Float own_alpha(int bx, int by, int chunk) const;
-  Float textured_alpha(Float own, int chunk) const;
+  Float untextured_alpha(int bx, int by, int chunk) const;
+  Float textured_alpha(Float untextured, int chunk) const;
   Colors colors(int bx, int by, int chunk) const;
   Float thresholds(int bx, int by, int chunk) const;
   Int nearest_entries(const Colors& colors, Float threshold, std::uint32_t lanes) const;
   Int packed(Colors source, Float threshold, std::uint32_t lanes, Int stored) const;
 };
 
-/// Calls draw_blocks(fragments) for element i of the group.
-/// @param triangle  its record, for the pixels' centers
+/// Calls draw_blocks(fragments) for element i of the group, and defers the element if necessary.
+/// @param triangle  the element's record for shading, at the pixels' centres
 template <class DrawBlocks>
 HWY_INLINE void draw_fragments_of(TileContext& context, int i, const ShadedTriangle& triangle,
                                   const DrawBlocks& draw_blocks) {
@@ -105,10 +107,11 @@ HWY_INLINE void draw_fragments_of(TileContext& context, int i, const ShadedTrian
   FragmentTriangle fragments(context, triangle);
   const TileDraw& draw = fragments.draw;
   fragments.id = static_cast<std::int32_t>(memory.visible_triangles.size());
-  if (draw.path.color_write == ColorWrite::constant)
-    fragments.packed_color = draw.id_output == TileDraw::IdOutput::primitive
-                                 ? memory.source[i] / draw.primitive_triangles
-                                 : packed_color_of(context, draw, i, triangle.back);
+  if (draw.path.color_write == ColorWrite::constant) {
+    const bool is_primitive_number = draw.id_output == TileDraw::IdOutput::primitive;
+    fragments.packed_color = is_primitive_number ? memory.source[i] / draw.primitive_triangles
+                                                 : packed_color_of(context, draw, i, triangle.back);
+  }
   if (draw.flat) fragments.flat_color = flat_color(draw, memory.source[i], triangle.back);
   fragments.begin_colors();
   const bool has_levels = fragments.texture != nullptr && fragments.texture->levels != nullptr;

@@ -1,4 +1,4 @@
-// Operations on a block of fragments [GL 2.1, 4.1]: alpha test, stencil test, depth test; then its colors
+// Operations on a block of fragments [GL 2.1, 4.1]: alpha test, stencil test, depth test; then its colours
 // are evaluated, blended, dithered, combined by a logic operation and stored under the write mask.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/fragment_triangle.cpp"
@@ -14,25 +14,29 @@ namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 HWY_NOINLINE void FragmentTriangle::operator()(int bx, int by, const BlockFragments* blocks) {
-  std::uint32_t passed[kMaxSamples], bits = 0;
   if (tests_texels()) {
+    std::uint32_t covered = 0;
     for (int s = 0; s < context.samples; ++s)
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-        bits |= mask_bits(kInt, hn::MaskFromVec(blocks[s].covered[chunk])) << (chunk * kLanes);
-    if (bits == 0) return;
-    sample_block(bx, by, bits);
-    bits = 0;
+        covered |= mask_bits(kInt, hn::MaskFromVec(blocks[s].covered[chunk])) << (chunk * kLanes);
+    if (covered == 0) return;
+    sample_block(bx, by, covered);
   }
-  for (int s = 0; s < context.samples; ++s) bits |= passed[s] = test(context.sample[s], bx, by, blocks[s]);
+  std::uint32_t passed[kMaxSamples];  // pixels that passed the tests, per sample
+  std::uint32_t passed_any = 0;       // pixels that passed at any sample
+  for (int s = 0; s < context.samples; ++s) {
+    passed[s] = test(context.sample[s], bx, by, blocks[s]);
+    passed_any |= passed[s];
+  }
   const ColorWrite color_write = draw.path.color_write;
-  if (bits == 0 || color_write == ColorWrite::none) return;
+  if (passed_any == 0 || color_write == ColorWrite::none) return;
   visible = true;
   const int index = context.block_index(bx, by);
   if (color_write == ColorWrite::deferred) return store_ids(index, passed);
-  context.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(bits));
-  if (evaluates_colors) evaluate_block(bx, by, bits);
+  context.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(passed_any));
+  if (evaluates_colors) evaluate_block(bx, by, passed_any);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-    if (chunk_bits(bits, chunk) == 0) continue;
+    if (chunk_bits(passed_any, chunk) == 0) continue;
     const Colors source = color_write == ColorWrite::constant ? Colors{} : colors(bx, by, chunk);
     const Float threshold = thresholds(bx, by, chunk);
     for (int s = 0; s < context.samples; ++s) {
@@ -46,7 +50,8 @@ HWY_NOINLINE void FragmentTriangle::operator()(int bx, int by, const BlockFragme
   }
 }
 
-/// Runs the tests of one sample and stores what they change. Returns the visible pixels, 16 bits.
+/// Runs the tests of one sample, and stores its new depths and stencil values. Returns the pixels that
+/// passed, 16 bits.
 HWY_INLINE std::uint32_t FragmentTriangle::test(const TileAttachments& sample, int bx, int by,
                                                 const BlockFragments& block) {
   const int index = context.block_index(bx, by);
@@ -55,11 +60,12 @@ HWY_INLINE std::uint32_t FragmentTriangle::test(const TileAttachments& sample, i
     LaneMask mask = hn::MaskFromVec(block.covered[chunk]);
     if (hn::AllFalse(kInt, mask)) continue;
     if (ops.alpha_test) {
-      const Float alpha = textured_alpha(own_alpha(bx, by, chunk), chunk);
-      mask = hn::And(mask,
-                     hn::RebindMask(kInt, compare_lanes(alpha, ops.alpha_func, splat(ops.alpha_reference))));
+      const Float alpha = textured_alpha(untextured_alpha(bx, by, chunk), chunk);
+      const auto alpha_passed = compare_lanes(alpha, ops.alpha_func, splat(ops.alpha_reference));
+      mask = hn::And(mask, hn::RebindMask(kInt, alpha_passed));
     }
-    LaneMask failed = no_lanes(), passed = mask;
+    LaneMask failed = no_lanes();
+    LaneMask passed = mask;
     Int stored = hn::Zero(kInt);
     if (ops.stencil) {
       stored = hn::Load(kInt, sample.stencil + index + chunk * kLanes);
@@ -82,6 +88,7 @@ HWY_INLINE std::uint32_t FragmentTriangle::test(const TileAttachments& sample, i
 }
 
 /// Samples the texture at the block's pixels into the batch.
+/// @param bits  pixels that need a texel
 HWY_NOINLINE void FragmentTriangle::sample_block(int bx, int by, std::uint32_t bits) {
   if (texture->levels == nullptr) return;
   ShadingBatch& batch = context.memory.batch;
@@ -93,7 +100,7 @@ HWY_NOINLINE void FragmentTriangle::sample_block(int bx, int by, std::uint32_t b
   sample_texture_lanes(*texture->levels, batch, kBlockPixels);
 }
 
-/// Deferred: stores the triangle's number where it is visible.
+/// ColorWrite::deferred: stores the triangle's number in the visibility buffer.
 /// @param index   of the block's first pixel in the tile
 /// @param passed  visible pixels of each sample
 HWY_INLINE void FragmentTriangle::store_ids(int index, const std::uint32_t* passed) {
@@ -106,7 +113,7 @@ HWY_INLINE void FragmentTriangle::store_ids(int index, const std::uint32_t* pass
     }
 }
 
-/// Evaluates the colors of the block's pixels in the batch, but for their alpha.
+/// Evaluates red, green and blue of the block's pixels in the batch.
 HWY_INLINE void FragmentTriangle::evaluate_block(int bx, int by, std::uint32_t bits) {
   ShadingBatch& batch = context.memory.batch;
   if (has_given_colors && flat_color != nullptr) {
@@ -121,8 +128,9 @@ HWY_INLINE void FragmentTriangle::evaluate_block(int bx, int by, std::uint32_t b
       gather_block_span<count.value>(context, surface, triangle, values, bx, by, bits, 0);
     });
   }
-  const bool is_sampled = tests_texels() || draw.path.color_write == ColorWrite::constant;
-  if (texture != nullptr && !is_sampled) sample_block(bx, by, bits);
+  const bool is_sampled = tests_texels();  // before the alpha test
+  const bool uses_texels = texture != nullptr && draw.path.color_write != ColorWrite::constant;
+  if (uses_texels && !is_sampled) sample_block(bx, by, bits);
   evaluate_colors(context, surface, kBlockPixels);
   if (draw.captures_normals) store_normals(context, context.block_index(bx, by), bits, 0);
 }
@@ -131,8 +139,8 @@ HWY_INLINE Barycentric FragmentTriangle::at(int bx, int by, int chunk) const {
   return barycentric(triangle, context.memory.edges64.data(), bx, by, chunk);
 }
 
-/// Alpha of a chunk before texturing.
-HWY_INLINE Float FragmentTriangle::own_alpha(int bx, int by, int chunk) const {
+/// Alpha of a chunk before its texture is applied.
+HWY_INLINE Float FragmentTriangle::untextured_alpha(int bx, int by, int chunk) const {
   if (block_colors != nullptr) return hn::Load(kFloat, block_colors + 3 * kBlockPixels + chunk * kLanes);
   if (flat_color != nullptr) return splat(flat_color[3]);
   const int attribute = draw.alpha_attribute[face];
@@ -141,19 +149,20 @@ HWY_INLINE Float FragmentTriangle::own_alpha(int bx, int by, int chunk) const {
   return clamped_unit(interpolate_clamped(at(bx, by, chunk), alpha));
 }
 
-/// Alpha of a chunk under its texels in the batch.
-HWY_INLINE Float FragmentTriangle::textured_alpha(Float own, int chunk) const {
-  if (texture == nullptr || !texture->changes_alpha()) return own;
-  return texture_env_alpha(*texture, own, texels_at(*texture, context.memory.batch, chunk * kLanes).c[3]);
+/// Alpha of a chunk after its texture is applied. @pre the batch has the texels
+HWY_INLINE Float FragmentTriangle::textured_alpha(Float untextured, int chunk) const {
+  if (texture == nullptr || !texture->changes_alpha()) return untextured;
+  const Colors texels = texels_at(*texture, context.memory.batch, chunk * kLanes);
+  return texture_env_alpha(*texture, untextured, texels.c[3]);
 }
 
-/// Evaluated colors 0..1 of a chunk; or an index in place of red.
+/// Evaluated colours 0..1 of a chunk; or an index in place of red.
 HWY_INLINE Colors FragmentTriangle::colors(int bx, int by, int chunk) const {
   Colors out{};
   for (int c = 0; c < 3; ++c)
     out.c[c] = hn::Load(kFloat, context.memory.batch.field[kColorR + c] + chunk * kLanes);
   if (draw.index[face]) return out;
-  const Float alpha = surface.is_constant ? splat(draw.color[face][3]) : own_alpha(bx, by, chunk);
+  const Float alpha = surface.is_constant ? splat(draw.color[face][3]) : untextured_alpha(bx, by, chunk);
   out.c[3] = textured_alpha(alpha, chunk);
   return out;
 }
@@ -161,16 +170,18 @@ HWY_INLINE Colors FragmentTriangle::colors(int bx, int by, int chunk) const {
 /// Rounding thresholds of a chunk: 0.5, or the dither pattern.
 HWY_INLINE Float FragmentTriangle::thresholds(int bx, int by, int chunk) const {
   if (!ops.dither) return splat(0.5f);
-  alignas(64) float t[kLanes];
+  alignas(64) float thresholds[kLanes];
   for (int l = 0; l < kLanes; ++l) {
-    const int p = chunk * kLanes + l;
-    t[l] = ops.threshold[(context.tile_y + by + p / 4) % kDitherSize]
-                        [(context.tile_x + bx + p % 4) % kDitherSize];
+    const int pixel = chunk * kLanes + l;
+    const int x = context.tile_x + bx + pixel % 4;
+    const int y = context.tile_y + by + pixel / 4;
+    thresholds[l] = ops.threshold[y % kDitherSize][x % kDitherSize];
   }
-  return hn::Load(kFloat, t);
+  return hn::Load(kFloat, thresholds);
 }
 
-/// Palette entries nearest to the colors, which the threshold moves by the palette's spread.
+/// Palette entries nearest to the colours. The threshold offsets the colours within the palette's spread.
+/// @param lanes  lanes that need an entry
 HWY_INLINE Int FragmentTriangle::nearest_entries(const Colors& colors, Float threshold,
                                                  std::uint32_t lanes) const {
   alignas(64) float c[3][kLanes];
@@ -180,16 +191,17 @@ HWY_INLINE Int FragmentTriangle::nearest_entries(const Colors& colors, Float thr
   hn::Store(threshold, kFloat, t);
   for (int l = 0; l < kLanes; ++l) {
     if ((lanes >> l & 1) == 0) continue;
-    const float moved = (t[l] - 0.5f) * ops.palette_spread;
-    packed[l] = static_cast<std::int32_t>(
-        context.frame.palette_search->nearest_unclamped(c[0][l] + moved, c[1][l] + moved, c[2][l] + moved));
+    const float offset = (t[l] - 0.5f) * ops.palette_spread;
+    packed[l] = static_cast<std::int32_t>(context.frame.palette_search->nearest_unclamped(
+        c[0][l] + offset, c[1][l] + offset, c[2][l] + offset));
   }
   return hn::Load(kInt, packed);
 }
 
-/// Packed colors that one sample stores.
-/// @param source  colors, or an index in place of red
-/// @param stored  packed colors of the sample before
+/// Packed colours to store in one sample.
+/// @param source  colours, or an index in place of red
+/// @param lanes   lanes that are stored
+/// @param stored  packed colours that the sample has
 HWY_INLINE Int FragmentTriangle::packed(Colors source, Float threshold, std::uint32_t lanes,
                                         Int stored) const {
   const ColorLayout& layout = context.frame.layout;

@@ -30,7 +30,7 @@ struct GroupBuilder {
   // next group are prefetched while one is drawn.
   std::uint32_t prefetched[2 * kGroupSize];
   int prefetched_count = 0;
-  std::uint32_t pending[kGroupSize];  // triangles
+  std::uint32_t pending[kGroupSize];  // triangles of the mesh that are not in the group yet
   int pending_count = 0;
 
   HWY_INLINE bool is_in(std::uint32_t number) const { return draw != nullptr && draw_number == number; }
@@ -38,16 +38,16 @@ struct GroupBuilder {
     const TileFrame& frame = context.frame;
     const TileDraw& next = frame.draws[number];
     // Pixels in the visibility buffer may only be overwritten by deferred draws that write the same planes.
-    if (draw != nullptr && !context.memory.visible_triangles.empty() &&
-        (next.write_mask != draw->write_mask || !next.deferred))
+    const bool has_visible_triangles = draw != nullptr && !context.memory.visible_triangles.empty();
+    if (has_visible_triangles && (next.write_mask != draw->write_mask || !next.deferred))
       shade_whole_tile(context);
     draw_number = number;
     draw = &next;
     draw_elements = draw_group_function(next.path);
     if (context.samples > 1 && next.depth_write && may_raise_depth(next.depth_test))
       reset_hiz(context, kMaxDepthKey);
-    // Exact at the draw's rectangle; pixels beyond the frame buffer's edges may be drawn, they are never
-    // read.
+    // The part of the draw's rectangle in the tile. Pixels beyond the frame buffer's edges may be drawn; they
+    // are never read.
     context.rect = intersect({next.rect.x0 - context.tile_x, next.rect.y0 - context.tile_y,
                               next.rect.x1 - context.tile_x, next.rect.y1 - context.tile_y},
                              {0, 0, context.tile_size, context.tile_size});
@@ -55,6 +55,7 @@ struct GroupBuilder {
         ((context.rect.x0 | context.rect.y0 | context.rect.x1 | context.rect.y1) & 3) != 0;
     if (next.texels != nullptr) draw_pixel_rectangle(context, number);
   }
+  /// Adds one entry of the bins, a primitive of the current draw.
   HWY_INLINE void add(const Bins& bins, std::uint32_t id) {
     if (draw->topology != Topology::triangles) return add_point_or_line(bins, id);
     if ((id & kDerivedBit) == 0) {
@@ -67,15 +68,16 @@ struct GroupBuilder {
     load_pending();
     draw_all();
   }
-  /// Adds leading entries that are triangles of the mesh, at most until the group is full. Returns their
-  /// number.
+  /// Adds leading entries that are triangles of the mesh, until the group is full. Returns their number.
   HWY_INLINE std::uint32_t add_mesh_triangles(const std::uint32_t* entries, std::uint32_t count) {
     if (draw == nullptr || draw->topology != Topology::triangles) return 0;
-    const auto room = static_cast<std::uint32_t>(kGroupSize - context.memory.group.count - pending_count),
-               most = std::min(count, room);
+    const auto room = static_cast<std::uint32_t>(kGroupSize - context.memory.group.count - pending_count);
+    const std::uint32_t max_added = std::min(count, room);
     std::uint32_t added = 0;
-    while (added < most && (entries[added] & (kDrawMarker | kDerivedBit)) == 0)
-      pending[pending_count + static_cast<int>(added)] = entries[added], ++added;
+    while (added < max_added && (entries[added] & (kDrawMarker | kDerivedBit)) == 0) {
+      pending[pending_count + static_cast<int>(added)] = entries[added];
+      ++added;
+    }
     pending_count += static_cast<int>(added);
     if (added == room) {
       load_pending();
@@ -83,14 +85,14 @@ struct GroupBuilder {
     }
     return added;
   }
-  /// Loads from the bins what was added; only attributes of derived primitives are still read from there.
+  /// Loads all prefetched elements. Afterwards only attributes of derived primitives are read from the bins.
   HWY_INLINE void release_bins(const Bins& bins) { draw_prefetched(bins, 0); }
-  /// Draws what was added; `bins` holds the last of it.
+  /// Draws all elements that were added. `bins` are those of the last ones.
   HWY_INLINE void flush(const Bins& bins) {
     release_bins(bins);
     finish();
   }
-  /// Draws what is left.
+  /// Draws the remaining elements. @pre release_bins() has run
   HWY_INLINE void finish() {
     load_pending();
     draw_all();
@@ -114,12 +116,13 @@ struct GroupBuilder {
     if (draw->source == ColorSource::per_vertex_packed) __builtin_prefetch(draw->packed_colors[0] + vertex);
     else __builtin_prefetch(draw->attributes + vertex * static_cast<std::size_t>(draw->attribute_stride));
   }
-  /// Loads all prefetched elements but the last `kept`.
+  /// Loads all prefetched elements except the last `kept`, and draws full groups.
   HWY_NOINLINE void draw_prefetched(const Bins& bins, int kept) {
     const int drawn = prefetched_count - kept;
     if (drawn <= 0) return;
     for (int i = 0; i < drawn; ++i) {
-      draw->topology == Topology::lines ? load<2>(bins, prefetched[i]) : load<1>(bins, prefetched[i]);
+      if (draw->topology == Topology::lines) load<2>(bins, prefetched[i]);
+      else load<1>(bins, prefetched[i]);
       if (context.memory.group.count == kGroupSize) draw_all();
     }
     std::copy_n(prefetched + drawn, kept, prefetched);
@@ -130,8 +133,12 @@ struct GroupBuilder {
     if (g.count == 0) return;
     // Unused lanes repeat the first triangle; they have no bit in the mask.
     for (int i = g.count; i < kGroupSize; ++i)
-      for (int k = 0; k < 3; ++k)
-        g.x[k][i] = g.x[k][0], g.y[k][i] = g.y[k][0], g.z[k][i] = g.z[k][0], g.rw[k][i] = g.rw[k][0];
+      for (int k = 0; k < 3; ++k) {
+        g.x[k][i] = g.x[k][0];
+        g.y[k][i] = g.y[k][0];
+        g.z[k][i] = g.z[k][0];
+        g.rw[k][i] = g.rw[k][0];
+      }
     draw_elements(context, draw_number);
     g.count = 0;
     if (context.memory.visible_triangles.size() >= kMaxVisibleTriangles) shade_whole_tile(context);
@@ -158,7 +165,7 @@ struct GroupBuilder {
     TileWorkspace::Memory& memory = context.memory;
     const int i = memory.group.count;
     memory.group.count += 4;
-    std::size_t first[4];  // corner
+    std::size_t first[4];  // first corner of each triangle
     for (int t = 0; t < 4; ++t) {
       memory.source[i + t] = ids[t];
       first[t] = std::size_t{ids[t]} * 3;
@@ -187,18 +194,21 @@ struct GroupBuilder {
     TriangleGroup& g = context.memory.group;
     const auto row = [&](int t)
                          HWY_ATTR { return hn::LoadU(four, reinterpret_cast<const std::int32_t*>(v[t])); };
-    const auto r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
-    const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(four, r0, r1)),
-               xy23 = hn::BitCast(pairs, hn::InterleaveLower(four, r2, r3));  // x x y y
-    const auto zw01 = hn::BitCast(pairs, hn::InterleaveUpper(four, r0, r1)),
-               zw23 = hn::BitCast(pairs, hn::InterleaveUpper(four, r2, r3));
+    const auto row0 = row(0);
+    const auto row1 = row(1);
+    const auto row2 = row(2);
+    const auto row3 = row(3);
+    const auto xxyy01 = hn::BitCast(pairs, hn::InterleaveLower(four, row0, row1));
+    const auto xxyy23 = hn::BitCast(pairs, hn::InterleaveLower(four, row2, row3));
+    const auto zzww01 = hn::BitCast(pairs, hn::InterleaveUpper(four, row0, row1));
+    const auto zzww23 = hn::BitCast(pairs, hn::InterleaveUpper(four, row2, row3));
     const auto store = [&](auto column, void* to) HWY_ATTR {
       hn::StoreU(hn::BitCast(four, column), four, static_cast<std::int32_t*>(to));
     };
-    store(hn::InterleaveLower(pairs, xy01, xy23), g.x[k] + i);
-    store(hn::InterleaveUpper(pairs, xy01, xy23), g.y[k] + i);
-    store(hn::InterleaveLower(pairs, zw01, zw23), g.z[k] + i);
-    store(hn::InterleaveUpper(pairs, zw01, zw23), g.rw[k] + i);
+    store(hn::InterleaveLower(pairs, xxyy01, xxyy23), g.x[k] + i);
+    store(hn::InterleaveUpper(pairs, xxyy01, xxyy23), g.y[k] + i);
+    store(hn::InterleaveLower(pairs, zzww01, zzww23), g.z[k] + i);
+    store(hn::InterleaveUpper(pairs, zzww01, zzww23), g.rw[k] + i);
   }
 #endif
   template <int kCorners>

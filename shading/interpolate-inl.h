@@ -18,8 +18,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Coordinates of vertices 1 and 2; vertex 0 has the rest. An attribute is a0 + b1 (a1 - a0) + b2 (a2 - a0),
-/// which keeps a constant attribute exact.
+/// Coordinates of vertices 1 and 2; that of vertex 0 is 1 - b1 - b2. An attribute is a0 + b1 (a1 - a0) +
+/// b2 (a2 - a0), which keeps a constant attribute exact.
 struct Barycentric {
   Float b1, b2;
   Float inverse;  // 1 / sum of the weights
@@ -31,7 +31,7 @@ HWY_INLINE Barycentric from_weights(Float w0, Float w1, Float w2, bool affine) {
   return {hn::Mul(w1, inverse), hn::Mul(w2, inverse), inverse};
 }
 
-/// Weights of a narrow triangle's vertices, constants broadcast to all lanes.
+/// Constants of the weights of a narrow triangle's vertices, broadcast to all lanes.
 struct WeightLanes {
   Float scale[3], shift[3];
   bool affine;
@@ -40,12 +40,12 @@ struct WeightLanes {
     affine = t.affine;
     for (int k = 0; k < 3; ++k) set(k, t.scale[k], t.shift[k]);
   }
-  /// @pre set_up_weights
+  /// @pre set_up_weights() has run for the group
   HWY_INLINE void set_up(const TriangleGroup& g, int i) {
     affine = g.affine[i] != 0;
     for (int k = 0; k < 3; ++k) set(k, g.scale[k][i], g.shift[k][i]);
   }
-  /// @param e0, e1, e2  the edges at the pixels
+  /// @param e0, e1, e2  edges at the pixels
   HWY_INLINE Barycentric at(Int e0, Int e1, Int e2) const {
     const auto weight = [&](int k, Int e)
                             HWY_ATTR { return mul_add(hn::ConvertTo(kFloat, e), scale[k], shift[k]); };
@@ -98,11 +98,11 @@ inline HWY_NOINLINE Barycentric barycentric_edges64(const ShadedTriangle& t, con
   }
   const Barycentric found =
       from_weights(hn::Load(kFloat, w[0]), hn::Load(kFloat, w[1]), hn::Load(kFloat, w[2]), t.affine);
-  // Beyond a line's end the sum of the weights may be 0. The first vertex's value is used then, which keeps
-  // constants.
-  const auto known = hn::And(hn::IsFinite(found.b1), hn::IsFinite(found.b2));
-  return {hn::IfThenElseZero(known, found.b1), hn::IfThenElseZero(known, found.b2),
-          hn::IfThenElseZero(known, found.inverse)};
+  // Beyond a line's end the sum of the weights may be 0. The value of the first vertex is used there, which
+  // keeps constants.
+  const auto is_finite = hn::And(hn::IsFinite(found.b1), hn::IsFinite(found.b2));
+  return {hn::IfThenElseZero(is_finite, found.b1), hn::IfThenElseZero(is_finite, found.b2),
+          hn::IfThenElseZero(is_finite, found.inverse)};
 }
 
 HWY_INLINE Barycentric barycentric(const ShadedTriangle& t, const Edges64* edges64, int bx, int by,
@@ -138,7 +138,7 @@ struct InterpolantLanes {
     to_third = splat(c.to_third);
   }
 };
-/// The same with its range.
+/// InterpolantLanes and the interpolant's range.
 struct ClampedInterpolantLanes {
   InterpolantLanes interpolant;
   Float low, high;
@@ -151,8 +151,8 @@ struct ClampedInterpolantLanes {
 HWY_INLINE Float interpolate(const Barycentric& b, const InterpolantLanes& c) {
   return mul_add(b.b1, c.to_second, mul_add(b.b2, c.to_third, c.first));
 }
-/// Clamped to the range: sums may round to slightly beyond it, and with several samples a pixel's center may
-/// lie outside the triangle.
+/// interpolate(), clamped to the range: sums may round to slightly beyond it, and with several samples a
+/// pixel's centre may lie outside the triangle.
 HWY_INLINE Float interpolate_clamped(const Barycentric& b, const ClampedInterpolantLanes& c) {
   return lesser_of(greater_of(interpolate(b, c.interpolant), c.low), c.high);
 }
@@ -162,7 +162,7 @@ HWY_INLINE Float interpolate_clamped(const Barycentric& b, const Interpolant& c)
   return interpolate_clamped(b, lanes);
 }
 
-/// Stores kCapacity attributes from `attribute` on; those beyond the surface's are undefined.
+/// Stores kCapacity attributes from `attribute` on. Attributes that the surface does not have are undefined.
 HWY_INLINE void store_interpolants(const ShadedTriangle& t, int attribute,
                                    TriangleInterpolants& interpolants) {
   static_assert(TriangleInterpolants::kCapacity <= kAttributePadding);
@@ -179,7 +179,7 @@ HWY_INLINE Float interpolate(const Barycentric& b, const TriangleInterpolants& c
   return interpolate(b, Interpolant{c.first[j], c.to_second[j], c.to_third[j]});
 }
 
-/// Several attributes from `attribute` on, whole vectors at a time; those beyond `count` are undefined.
+/// `count` attributes from `attribute` on, loaded in whole vectors: later elements are undefined.
 struct InterpolantArrays {
   alignas(64) float first[kAttributePadding], to_second[kAttributePadding], to_third[kAttributePadding];
   HWY_INLINE InterpolantArrays(const ShadedTriangle& t, int attribute, int count) {

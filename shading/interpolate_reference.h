@@ -1,6 +1,6 @@
-// The scalar twin of interpolate-inl.h and of the weights' setup, and their specification: one pixel of one
-// triangle, its exact edges in 128-bit integers, the floats in the kernel's order. Unlike a line's, the sum
-// of a triangle's weights is never 0.
+// The scalar twin of interpolate-inl.h and of the set-up of weights, and their specification: one pixel of
+// one triangle. Edges are exact integers of 128 bits; floats are computed in the kernel's order. The sum of
+// the weights is never 0 for a triangle; the kernel handles that case for lines.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace tessera::detail {
 
-/// Coordinates of vertices 1 and 2.
+/// Barycentric coordinates of vertices 1 and 2.
 struct BarycentricReference {
   float b1 = 0, b2 = 0;
   float interpolate(float at_first, float at_second, float at_third) const {
@@ -26,8 +26,9 @@ inline BarycentricReference barycentric_reference(const WindowVertex (&v)[3], in
   const auto [low_y, high_y] = std::minmax({v[0].y, v[1].y, v[2].y});
   const bool wide = std::max(high_x - low_x, high_y - low_y) > kMaxEdges32Extent * kSubpixelScale;
   const float largest = std::max({v[0].rw, v[1].rw, v[2].rw});
-  const bool affine =
-      (v[0].rw == v[1].rw && v[1].rw == v[2].rw) || !(largest > 0x1p-120f && largest < 0x1p120f);
+  const bool all_equal = v[0].rw == v[1].rw && v[1].rw == v[2].rw;
+  const bool in_range = largest > 0x1p-120f && largest < 0x1p120f;
+  const bool affine = all_equal || !in_range;
   const auto inverse_area = static_cast<float>(1.0 / static_cast<double>(exact.area));
 
   float weight[3];

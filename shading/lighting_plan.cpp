@@ -21,12 +21,12 @@ double dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
   return double{a[0]} * b[0] + double{a[1]} * b[1] + double{a[2]} * b[2];
 }
 
-// Tolerance, an angle: directions that leave a cone only because they were rounded to floats count as inside,
-// even for a cone of 0 degrees.
-constexpr double kRoundingOfDirections = 0x1p-22,
-                 kDegreesOfRounding = kRoundingOfDirections * 180 / 3.14159265358979323846;
+/// Tolerance in radians: directions that leave a cone only because they were rounded to floats count as
+/// inside, even for a cone of 0 degrees.
+constexpr double kDirectionTolerance = 0x1p-22;
+constexpr double kDirectionToleranceDegrees = kDirectionTolerance * 180 / 3.14159265358979323846;
 
-// The spot factor of a directional light, with V = -L: constant over all points.
+/// The spot factor of a directional light, with V = -L: the same for all points.
 float directional_spot_factor(const EyeLight& light) {
   const auto& l = light.position;
   const auto& d = light.spot_direction;
@@ -34,30 +34,30 @@ float directional_spot_factor(const EyeLight& light) {
   const double lengths = std::sqrt(dot(l, l) * dot(d, d));
   if (lengths == 0) return 0;
   const double cosine = std::min(-dot(l, d) / lengths, 1.0);
-  if (cosine < sine_cosine(light.spot_cutoff + kDegreesOfRounding).cosine || cosine <= 0) return 0;
+  if (cosine < sine_cosine(light.spot_cutoff + kDirectionToleranceDegrees).cosine || cosine <= 0) return 0;
   return power_of_reference(static_cast<float>(cosine), light.spot_exponent);
 }
 
-/// Largest squared distance between the cone's direction and a unit vector inside the cone.
-float squared_chord(float degrees) {
-  const double chord = 2 * sine_cosine(degrees / 2.0).sine + kRoundingOfDirections;
+/// Largest squared distance between the axis of a cone and a unit vector inside the cone.
+float squared_chord(float cutoff_degrees) {
+  const double chord = 2 * sine_cosine(cutoff_degrees / 2.0).sine + kDirectionTolerance;
   return static_cast<float>(chord * chord);
 }
 
-/// Integer bits of the factor of a highlight, the product of colors over the attenuation. Limited by the
-/// range of powers, which ends at 2^-126: with a larger factor the foot of the highlight is lost.
+/// Integer bits of the factor of a highlight: the product of its colours, times the largest attenuation.
+/// Limited by the range of powers, which ends at 2^-126: a larger factor loses the foot of the highlight.
 float bits_above_one(const LightTerm& term) {
   constexpr double kMaxBits = 94;
-  if (!is_black(term.tracked_specular)) return kMaxBits;  // vertex colors are unbounded
-  double most =
+  if (!is_black(term.tracked_specular)) return kMaxBits;  // vertex colours are unbounded
+  double largest =
       std::max({std::abs(term.specular[0]), std::abs(term.specular[1]), std::abs(term.specular[2])});
   if (term.kind == LightKind::attenuated_point || term.kind == LightKind::attenuated_spot) {
     const auto [constant, linear, quadratic] = term.attenuation;
-    if (!(constant > 0 && linear >= 0 && quadratic >= 0))
-      return kMaxBits;  // attenuation may be arbitrarily small
-    most /= constant;
+    const bool denominator_may_be_tiny = !(constant > 0 && linear >= 0 && quadratic >= 0);
+    if (denominator_may_be_tiny) return kMaxBits;
+    largest /= constant;
   }
-  return most > 1 ? static_cast<float>(std::min(std::ilogb(most) + 1.0, kMaxBits)) : 0.0f;
+  return largest > 1 ? static_cast<float>(std::min(std::ilogb(largest) + 1.0, kMaxBits)) : 0.0f;
 }
 
 EffectReason reason_of(HighlightKind kind) {
@@ -79,6 +79,12 @@ LightKind kind_of(const EyeLight& light) {
   return attenuated ? LightKind::attenuated_spot : LightKind::spot;
 }
 
+bool has_ambient(const LightTerm& term) { return !is_black(term.ambient) || !is_black(term.tracked_ambient); }
+bool has_diffuse(const LightTerm& term) { return !is_black(term.diffuse) || !is_black(term.tracked_diffuse); }
+bool has_specular(const LightTerm& term) {
+  return !is_black(term.specular) || !is_black(term.tracked_specular);
+}
+
 void note_term(const EffectNotes& notes, const LightTerm& term, int light) {
   const auto note = [&](Effect effect, bool active, EffectReason reason) {
     notes.add({.effect = effect, .active = active, .reason = reason, .light = light});
@@ -94,13 +100,12 @@ void note_term(const EffectNotes& notes, const LightTerm& term, int light) {
          is_spot(term.kind) ? EffectReason::requested : EffectReason::cutoff_180);
   }
   note(Effect::light_highlight, term.highlight != HighlightKind::none, reason_of(term.highlight));
-  if (!is_black(term.ambient) || !is_black(term.tracked_ambient))
-    note(Effect::light_ambient, true, EffectReason::requested);
+  if (has_ambient(term)) note(Effect::light_ambient, true, EffectReason::requested);
   if (!is_black(term.tracked_diffuse) || !is_black(term.tracked_specular))
     note(Effect::light_tracked_colors, true, EffectReason::requested);
 }
 
-// Products beyond the range of floats become the largest float, so that 0 times it is 0.
+/// Products beyond the range of floats become the largest float, so that 0 times them is 0.
 Rgb finite(Rgb color) {
   for (float& component : color) component = std::clamp(component, -kMaxFloat, kMaxFloat);
   return color;
@@ -119,7 +124,89 @@ EyeLight to_luminance(const EyeLight& light) {
   return changed;
 }
 
-/// @param convert  applied to each light: identity, or its luminance
+/// Folds the colours of the light and the material, and the cone of a directional light.
+void fold_colors(LightTerm& term, const EyeLight& light, const SurfaceMaterial& material,
+                 const TrackedColors& tracked) {
+  const float factor = light.directional && light.spot_cutoff != 180 ? directional_spot_factor(light) : 1.0f;
+  const auto fold = [factor](bool is_tracked, const Rgb& of_light, const Rgb& of_material, Rgb& product,
+                             Rgb& tracked_product) {
+    if (is_tracked) tracked_product = finite(of_light * factor);
+    else product = finite(finite(of_light * of_material) * factor);
+  };
+  fold(tracked.ambient, light.ambient, material.ambient, term.ambient, term.tracked_ambient);
+  fold(tracked.diffuse, light.diffuse, material.diffuse, term.diffuse, term.tracked_diffuse);
+  fold(tracked.specular, light.specular, material.specular, term.specular, term.tracked_specular);
+}
+
+HighlightKind highlight_kind(const LightingModel& model) {
+  if (model.phong_highlight)
+    return model.local_viewer ? HighlightKind::phong_local : HighlightKind::phong_infinite;
+  return model.local_viewer ? HighlightKind::blinn_local : HighlightKind::blinn_infinite;
+}
+
+/// Sets the position, attenuation and cone. @pre `term` has its kind
+void set_light(LightTerm& term, const EyeLight& light) {
+  term.position = light.position;
+  term.half_vector = normalized(light.position[0], light.position[1], double{light.position[2]} + 1);
+  term.spot_direction = light.spot_direction;
+  term.attenuation = light.attenuation;
+  term.spot_power = make_power(light.spot_exponent);
+  term.spot_cosine = static_cast<float>(sine_cosine(light.spot_cutoff).cosine);
+  if (is_spot(term.kind) && light.spot_cutoff < kNarrowCone)
+    term.spot_chord_squared = squared_chord(light.spot_cutoff);
+}
+
+/// Decides how the highlight is computed, and which bases make none.
+/// @pre `term` has its kinds, colours and attenuation
+void set_highlight(LightTerm& term, const LightingModel& model, float shininess) {
+  const bool has_highlight = term.highlight != HighlightKind::none;
+  term.sharp = has_highlight && model.unit_normals && shininess > kSharpShininess;
+  const bool half_varies =
+      term.highlight == HighlightKind::blinn_local ||
+      (term.highlight == HighlightKind::blinn_infinite && term.kind != LightKind::directional);
+  // Powers below 2^-visible_bits are invisible.
+  const float visible_bits = 32 + bits_above_one(term);
+  // Squares are at least 2^-126, so cosines whose squares are used are at least 2^-63.
+  const bool may_square = half_varies && 63 * shininess >= visible_bits;
+  term.squared = may_square && model.unit_normals && !term.sharp;
+  const float exponent = term.squared ? shininess / 2 : shininess;
+  term.highlight_power = make_power(exponent);
+  // x^s < 2^-b if x < 2^(-b / s): holds for most of a shiny surface, which then needs no power.
+  term.highlight_floor = exponent == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                       : exp2_reference(std::max(-visible_bits / exponent, -126.0f));
+}
+
+/// Adds the term of one light to the program, unless it cannot contribute or is constant.
+/// @param number  number of the light, for notes
+void plan_term(LightingProgram& program, const EyeLight& light, int number, const SurfaceMaterial& material,
+               const TrackedColors& tracked, const LightingModel& model, const EffectNotes& notes) {
+  const auto note_skipped = [&](EffectReason reason) {
+    notes.add({.effect = Effect::light, .active = false, .reason = reason, .light = number});
+  };
+  LightTerm term;
+  fold_colors(term, light, material, tracked);
+  const bool has_only_ambient = !has_diffuse(term) && !has_specular(term);
+  if (has_only_ambient && !has_ambient(term)) return note_skipped(EffectReason::black);
+  term.kind = kind_of(light);
+  // The ambient term of a directional light is constant.
+  if (term.kind == LightKind::directional) {
+    program.base = program.base + term.ambient;
+    program.tracked_base = program.tracked_base + term.tracked_ambient;
+    term.ambient = term.tracked_ambient = {};
+    if (has_only_ambient) return note_skipped(EffectReason::constant_ambient);
+  }
+  if (has_specular(term)) term.highlight = highlight_kind(model);
+  set_light(term, light);
+  set_highlight(term, model, material.shininess);
+  program.needs_normal = true;
+  program.needs_position |= term.kind != LightKind::directional;
+  program.needs_view |=
+      term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
+  note_term(notes, term, number);
+  program.terms.push_back(term);
+}
+
+/// @param convert  applied to each light: unchanged() or to_luminance()
 LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors& tracked,
                            const std::vector<EyeLight>& lights, EyeLight (&convert)(const EyeLight&),
                            const LightingModel& model, const EffectNotes& notes,
@@ -133,75 +220,8 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
   if (tracked.ambient) program.tracked_base = program.tracked_base + model.scene_ambient;
   if (!tracked.emission) program.base = program.base + material.emission;
   if (!tracked.ambient) program.base = program.base + model.scene_ambient * material.ambient;
-
-  for (std::size_t number = 0; number < lights.size(); ++number) {
-    const EyeLight light = convert(lights[number]);
-    const auto note_skipped = [&](EffectReason reason) {
-      notes.add(
-          {.effect = Effect::light, .active = false, .reason = reason, .light = static_cast<int>(number)});
-    };
-    LightTerm term;
-    const float factor =
-        light.directional && light.spot_cutoff != 180 ? directional_spot_factor(light) : 1.0f;
-    (tracked.ambient ? term.tracked_ambient : term.ambient) =
-        finite((tracked.ambient ? light.ambient : finite(light.ambient * material.ambient)) * factor);
-    (tracked.diffuse ? term.tracked_diffuse : term.diffuse) =
-        finite((tracked.diffuse ? light.diffuse : finite(light.diffuse * material.diffuse)) * factor);
-    (tracked.specular ? term.tracked_specular : term.specular) =
-        finite((tracked.specular ? light.specular : finite(light.specular * material.specular)) * factor);
-    const bool has_ambient = !is_black(term.ambient) || !is_black(term.tracked_ambient);
-    const bool has_diffuse = !is_black(term.diffuse) || !is_black(term.tracked_diffuse);
-    const bool has_specular = !is_black(term.specular) || !is_black(term.tracked_specular);
-    if (!has_ambient && !has_diffuse && !has_specular) {
-      note_skipped(EffectReason::black);
-      continue;
-    }
-    term.kind = kind_of(light);
-    // The ambient term of a directional light is constant.
-    if (term.kind == LightKind::directional) {
-      program.base = program.base + term.ambient;
-      program.tracked_base = program.tracked_base + term.tracked_ambient;
-      term.ambient = term.tracked_ambient = {};
-      if (!has_diffuse && !has_specular) {
-        note_skipped(EffectReason::constant_ambient);
-        continue;
-      }
-    }
-    if (has_specular) {
-      term.highlight =
-          model.phong_highlight
-              ? (model.local_viewer ? HighlightKind::phong_local : HighlightKind::phong_infinite)
-              : (model.local_viewer ? HighlightKind::blinn_local : HighlightKind::blinn_infinite);
-    }
-    term.position = light.position;
-    term.half_vector = normalized(light.position[0], light.position[1], double{light.position[2]} + 1);
-    term.spot_direction = light.spot_direction;
-    term.attenuation = light.attenuation;
-    term.spot_power = make_power(light.spot_exponent);
-    term.spot_cosine = static_cast<float>(sine_cosine(light.spot_cutoff).cosine);
-    if (is_spot(term.kind) && light.spot_cutoff < kNarrowCone)
-      term.spot_chord_squared = squared_chord(light.spot_cutoff);
-    term.sharp = has_specular && model.unit_normals && material.shininess > kSharpShininess;
-    const bool half_varies =
-        term.highlight == HighlightKind::blinn_local ||
-        (term.highlight == HighlightKind::blinn_infinite && term.kind != LightKind::directional);
-    const float visible_bits =
-        32 + bits_above_one(term);  // smaller powers are invisible: below 2^-visible_bits
-    // Squares are at least 2^-126, so cosines whose squares are used are at least 2^-63.
-    term.squared =
-        half_varies && model.unit_normals && !term.sharp && 63 * material.shininess >= visible_bits;
-    const float exponent = term.squared ? material.shininess / 2 : material.shininess;
-    term.highlight_power = make_power(exponent);
-    // x^s < 2^-b if x < 2^(-b / s): holds for most of a shiny surface, which then needs no power.
-    term.highlight_floor = exponent == 0 ? std::numeric_limits<float>::quiet_NaN()
-                                         : exp2_reference(std::max(-visible_bits / exponent, -126.0f));
-    program.needs_normal = true;
-    program.needs_position |= term.kind != LightKind::directional;
-    program.needs_view |=
-        term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
-    note_term(notes, term, static_cast<int>(number));
-    program.terms.push_back(term);
-  }
+  for (std::size_t number = 0; number < lights.size(); ++number)
+    plan_term(program, convert(lights[number]), static_cast<int>(number), material, tracked, model, notes);
   program.needs_position |= program.needs_view;
   return program;
 }
@@ -218,7 +238,7 @@ LightingProgram plan_index_lighting(const IndexMaterial& material, const std::ve
                                     const LightingModel& model, const EffectNotes& notes,
                                     std::vector<LightTerm> term_storage) {
   const auto [ambient, diffuse, specular] = material.indexes;
-  // Red sums d, green s. If both ends of a ramp are the same index, the term between them is dropped.
+  // Red sums d, green sums s, which also scales the diffuse ramp. Ramps between equal indices need no term.
   SurfaceMaterial surface{
       .ambient = {}, .diffuse = {}, .specular = {}, .emission = {}, .shininess = material.shininess};
   if (diffuse != ambient) surface.diffuse = {1, 0, 0};

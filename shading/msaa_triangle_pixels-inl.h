@@ -1,5 +1,5 @@
-// Pixels of one narrow triangle at all samples. A sample sees of a triangle what the pixel's center sees of
-// the triangle moved by the opposite of the sample's offset (raster/sample_positions.h).
+// Pixels of one narrow triangle at all samples. A sample is covered if the pixel's centre is covered by the
+// triangle moved by the opposite of the sample's offset (raster/sample_positions.h).
 #if defined(TESSERA_SHADING_MSAA_TRIANGLE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_MSAA_TRIANGLE_PIXELS_INL_H_
 #undef TESSERA_SHADING_MSAA_TRIANGLE_PIXELS_INL_H_
@@ -20,15 +20,15 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Whether hierarchical z culls blocks. Only `less_write` uses it, and keeps the blocks' hiz_max exact.
+/// Whether hierarchical z culls blocks. Only `less_write` uses hiz_max, and keeps it exact.
 template <class Depth, DepthTestPath kDepthTest>
-inline constexpr bool kUsesHiz = kHasDepth<Depth>&& kDepthTest == DepthTestPath::less_write;
+inline constexpr bool kUsesHiz = (kDepthTest == DepthTestPath::less_write) && kHasDepth<Depth>;
 
-/// Whether no sample of the block is farther than `min_depth_key`.
+/// Whether all samples of a block are nearer than `min_depth_key`, or as near.
 HWY_INLINE bool hiz_culls(const TileContext& context, std::int32_t min_depth_key, int bx, int by) {
   return min_depth_key >= context.memory.samples->hiz_max[context.block_index(bx, by) / kBlockPixels];
 }
-/// Whether this holds for all blocks of the bounds.
+/// hiz_culls() for all blocks that touch the bounds.
 HWY_INLINE bool hiz_culls(const TileContext& context, std::int32_t min_depth_key, int x0, int y0, int x1,
                           int y1) {
   for (int by = y0 & ~3; by <= y1; by += 4)
@@ -44,13 +44,14 @@ struct MsaaTrianglePixels {
   const TileDraw& draw;
   Depth depth;
   typename Depth::SampleOrigin origins[kMaxSamples];
-  Edges32 edges;              // dominating edges, never below any sample's: they find the blocks
-  Int below[kMaxSamples][3];  // sample's edges - dominating edges: 0 or less
-  std::int32_t* stored_depth[kMaxSamples];
-  std::int32_t* stored[kMaxSamples];  // colors or visibility buffer of each sample
-  Int value;                          // packed color, or number of the triangle
-  const MsaaColorEval* color;         // ColorWrite::deferred: null, or packed colors in place of the number
-  Int writable, depth_writable;
+  Edges32 edges;                   // dominating edges, nowhere below a sample's: they find the blocks
+  Int edge_delta[kMaxSamples][3];  // sample's edges - dominating edges: 0 or less
+  std::int32_t* depth_of[kMaxSamples];
+  std::int32_t* target_of[kMaxSamples];  // colours, or visibility buffer
+  Int value;                             // packed colour, or number of the triangle
+  const MsaaColorEval* color;    // ColorWrite::deferred: null, or colours to store instead of the number
+  Int writable;                  // bits of packed colours that change
+  Int depth_writable;            // -1 or 0
   std::int32_t min_depth_key;    // no sample of the triangle has a smaller depth key
   Int visible = hn::Zero(kInt);  // minus the number of pixels visible at any sample, per lane
 
@@ -69,24 +70,24 @@ struct MsaaTrianglePixels {
     const SampleGroup& samples = context.memory.samples->samples32;
     for (int k = 0; k < 3; ++k) {
       edges.e[k] = samples.max_edge[k][i];
-      for (int s = 0; s < context.samples; ++s) below[s][k] = splat(samples.edge_delta[s][k][i]);
+      for (int s = 0; s < context.samples; ++s) edge_delta[s][k] = splat(samples.edge_delta[s][k][i]);
     }
     if constexpr (kHasDepth<Depth>) {
       depth.set_up(g, i, context.tile_x, context.tile_y, context.frame.depth_format);
       depth.prepare_blocks();
     }
+    const bool stores_color = kColorWrite == ColorWrite::constant || color != nullptr;
     for (int s = 0; s < context.samples; ++s) {
-      stored_depth[s] = context.sample[s].depth;
-      stored[s] = reinterpret_cast<std::int32_t*>(kColorWrite == ColorWrite::constant || color != nullptr
-                                                      ? context.sample[s].color
-                                                      : context.sample[s].visibility);
+      depth_of[s] = context.sample[s].depth;
+      target_of[s] = reinterpret_cast<std::int32_t*>(stores_color ? context.sample[s].color
+                                                                  : context.sample[s].visibility);
     }
     for (int s = 0; s < context.samples; ++s)
       origins[s] = Depth::sample_origin(g, samples, s, i, sample_positions(context.samples)[s],
                                         context.tile_x, context.tile_y);
   }
 
-  // A full block is full for the dominating edges, not for every sample.
+  // The template argument is unused: blocks that are full for the dominating edges may not be for a sample.
   template <bool>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
     if (kUsesHiz<Depth, kDepthTest> && hiz_culls(context, min_depth_key, bx, by)) return;
@@ -99,51 +100,65 @@ struct MsaaTrianglePixels {
   HWY_NOINLINE void draw_block(int bx, int by, const BlockEdges& block_edges) {
     const int block = context.block_index(bx, by);
     const auto step = depth.step_to(bx, by);
-    const bool needs_scissor =
-        context.needs_scissor;  // in a register: members would be reloaded after every store
+    // Copies stay in registers; the compiler would reload members after every store.
+    const bool needs_scissor = context.needs_scissor;
     const Int writes_depth = depth_writable;
     Int hiz_max = splat(std::numeric_limits<std::int32_t>::min());
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       const int index = block + chunk * kLanes;
-      const Int e0 = block_edges.at(0, chunk), e1 = block_edges.at(1, chunk), e2 = block_edges.at(2, chunk);
-      if (hn::AllTrue(kInt, hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(kInt)))) {  // outside at every sample
+      const Int e0 = block_edges.at(0, chunk);
+      const Int e1 = block_edges.at(1, chunk);
+      const Int e2 = block_edges.at(2, chunk);
+      if (hn::AllTrue(kInt, hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(kInt)))) {
+        // Outside at every sample.
         if constexpr (kUsesHiz<Depth, kDepthTest>)
-          for (int s = 0; s < kSamples; ++s)
-            hiz_max = hn::Max(hiz_max, hn::Load(kInt, stored_depth[s] + index));
+          for (int s = 0; s < kSamples; ++s) hiz_max = hn::Max(hiz_max, hn::Load(kInt, depth_of[s] + index));
         continue;
       }
       const Int new_value =
           kColorWrite == ColorWrite::deferred && color != nullptr ? color->packed(e0, e1, e2) : value;
       Int chunk_visible = hn::Zero(kInt);
       for (int s = 0; s < kSamples; ++s) {
-        auto mask = hn::Gt(
-            hn::Or(hn::Or(hn::Add(e0, below[s][0]), hn::Add(e1, below[s][1])), hn::Add(e2, below[s][2])),
-            splat(-1));
+        const Int sample_edges = hn::Or(hn::Or(hn::Add(e0, edge_delta[s][0]), hn::Add(e1, edge_delta[s][1])),
+                                        hn::Add(e2, edge_delta[s][2]));
+        LaneMask mask = hn::Gt(sample_edges, splat(-1));
         if (needs_scissor) mask = hn::And(mask, scissor_mask(context.rect, bx, by, chunk));
         if constexpr (kHasDepth<Depth>) {
-          std::int32_t* const at = stored_depth[s] + index;
-          const Int before = hn::Load(kInt, at), key = depth.keys(depth.block(origins[s], step), chunk);
-          mask = hn::And(mask, kDepthTest == DepthTestPath::less_write
-                                   ? hn::Lt(key, before)
-                                   : compare_lanes(key, draw.depth_test, before));
-          const Int after = hn::IfThenElse(
-              kDepthTest == DepthTestPath::less_write ? mask : hn::And(mask, hn::MaskFromVec(writes_depth)),
-              key, before);
-          hn::Store(after, kInt, at);
-          if constexpr (kUsesHiz<Depth, kDepthTest>) hiz_max = hn::Max(hiz_max, after);
+          const Int key = depth.keys(depth.block(origins[s], step), chunk);
+          const Int stored = test_depth(depth_of[s] + index, key, writes_depth, mask);
+          if constexpr (kUsesHiz<Depth, kDepthTest>) hiz_max = hn::Max(hiz_max, stored);
         }
         chunk_visible = hn::Or(chunk_visible, hn::VecFromMask(kInt, mask));
         if constexpr (kColorWrite == ColorWrite::constant)
-          store_packed(reinterpret_cast<std::uint32_t*>(stored[s]) + index, new_value, mask, writable);
+          store_packed(reinterpret_cast<std::uint32_t*>(target_of[s]) + index, new_value, mask, writable);
         if constexpr (kColorWrite == ColorWrite::deferred) {
-          std::int32_t* const at = stored[s] + index;
-          hn::Store(hn::IfThenElse(mask, new_value, hn::Load(kInt, at)), kInt, at);
+          std::int32_t* const target = target_of[s] + index;
+          hn::Store(hn::IfThenElse(mask, new_value, hn::Load(kInt, target)), kInt, target);
         }
       }
       if constexpr (kColorWrite != ColorWrite::none) visible = hn::Add(visible, chunk_visible);
     }
     if constexpr (kUsesHiz<Depth, kDepthTest>)
       context.memory.samples->hiz_max[block / kBlockPixels] = hn::GetLane(hn::MaxOfLanes(kInt, hiz_max));
+  }
+
+ private:
+  /// Removes the lanes that fail the depth test from `mask`, and stores the keys of the others. Returns the
+  /// depth keys after the test.
+  HWY_INLINE Int test_depth(std::int32_t* depth_at, Int key, [[maybe_unused]] Int writes_depth,
+                            LaneMask& mask) const {
+    const Int before = hn::Load(kInt, depth_at);
+    LaneMask stores = mask;
+    if constexpr (kDepthTest == DepthTestPath::less_write) {
+      mask = hn::And(mask, hn::Lt(key, before));
+      stores = mask;
+    } else {
+      mask = hn::And(mask, compare_lanes(key, draw.depth_test, before));
+      stores = hn::And(mask, hn::MaskFromVec(writes_depth));
+    }
+    const Int after = hn::IfThenElse(stores, key, before);
+    hn::Store(after, kInt, depth_at);
+    return after;
   }
 };
 

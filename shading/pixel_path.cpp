@@ -20,17 +20,18 @@ bool has_offset(const TileDraw& draw) {
 
 bool is_rgb8(const ColorLayout& layout) {
   const bool has_8_bits = layout.r_bits == 8 && layout.g_bits == 8 && layout.b_bits == 8;
-  return has_8_bits && layout.alpha_bits == 0 && !layout.luminance && !layout.index;
+  const bool is_rgb = !layout.luminance && !layout.index;
+  return has_8_bits && is_rgb && layout.alpha_bits == 0;
 }
 
-/// Color of a draw without operations.
+/// ColorWrite of a draw without operations.
 ColorWrite plain_color_write(const TileDraw& draw) {
   if (draw.source == ColorSource::none) return ColorWrite::none;
   if (draw.source == ColorSource::per_pixel || draw.deferred) return ColorWrite::deferred;
   return draw.source == ColorSource::interpolated ? ColorWrite::interpolated : ColorWrite::constant;
 }
 
-/// Color of blocks of fragments.
+/// ColorWrite of a draw in blocks of fragments.
 ColorWrite fragment_color_write(const TileDraw& draw) {
   if (draw.source == ColorSource::none || draw.write_mask == 0) return ColorWrite::none;
   if (draw.deferred) return ColorWrite::deferred;
@@ -39,22 +40,22 @@ ColorWrite fragment_color_write(const TileDraw& draw) {
   return is_packed ? ColorWrite::constant : ColorWrite::evaluated;
 }
 
-/// source * alpha + destination * (1 - alpha), of colors that are interpolated or constant, and nothing else.
+/// Whether the draw blends by source * alpha + destination * (1 - alpha), with interpolated or constant
+/// colours and without other operations on colours.
 bool is_plain_blend(const PixelPathFrame& frame, const TileDraw& draw) {
   const FragmentOps& ops = *draw.ops;
-  if (!is_rgb8(frame.layout) || ops.dither || ops.logic != LogicOp::copy || draw.texture != nullptr)
-    return false;
+  if (!is_rgb8(frame.layout) || draw.texture != nullptr) return false;
+  if (ops.dither || ops.logic != LogicOp::copy) return false;
   if (draw.source != ColorSource::interpolated && draw.source != ColorSource::constant) return false;
-  return ops.blend && ops.equation == BlendEquation::add && ops.src_color == BlendFactor::src_alpha &&
-         ops.dst_color == BlendFactor::one_minus_src_alpha;
+  if (!ops.blend || ops.equation != BlendEquation::add) return false;
+  return ops.src_color == BlendFactor::src_alpha && ops.dst_color == BlendFactor::one_minus_src_alpha;
 }
 
-/// Whether the path `triangles` has code for the operations of a draw: a stencil test, and a plain blend.
-/// Sets its color.
+/// Whether Kind::triangles supports the operations of a draw: a stencil test, and a plain blend. If so,
+/// `color_write` receives the draw's ColorWrite.
 bool triangles_take_operations(const PixelPathFrame& frame, const TileDraw& draw, ColorWrite& color_write) {
-  if (frame.samples > 1 || draw.ops->alpha_test || draw.id_output != TileDraw::IdOutput::none ||
-      has_offset(draw))
-    return false;
+  if (frame.samples > 1 || draw.ops->alpha_test) return false;
+  if (draw.id_output != TileDraw::IdOutput::none || has_offset(draw)) return false;
   if (draw.source == ColorSource::none || draw.deferred || draw.plain_colors) {
     color_write = plain_color_write(draw);
     return true;
@@ -63,7 +64,7 @@ bool triangles_take_operations(const PixelPathFrame& frame, const TileDraw& draw
   return is_plain_blend(frame, draw);
 }
 
-/// RGB draws without operations whose colors need no lighting. One lane gains nothing.
+/// Whether the draw has a texture, no operations, and RGB colours without lighting. One lane gains nothing.
 bool can_texture_immediately(const PixelPathFrame& frame, const TileDraw& draw) {
   if (frame.isa == InstructionSet::scalar || !frame.shade_immediately || frame.samples > 1) return false;
   if (draw.ops != nullptr || draw.texture == nullptr || draw.texture->levels == nullptr) return false;
@@ -72,11 +73,11 @@ bool can_texture_immediately(const PixelPathFrame& frame, const TileDraw& draw) 
   return draw.source == ColorSource::constant || draw.source == ColorSource::interpolated;
 }
 
-/// Points and lines of packed colors, and lines of interpolated ones, are just stored.
+/// Points and lines of packed colours, and lines of interpolated colours, are stored immediately.
 PixelPath choose_point_or_line_path(const PixelPathFrame& frame, const TileDraw& draw, PixelPath path) {
   const bool is_line = draw.topology == Topology::lines;
-  const bool is_interpolated =
-      is_line && draw.source == ColorSource::interpolated && !draw.deferred && !draw.index[0];
+  const bool has_plain_colors = !draw.deferred && !draw.index[0];
+  const bool is_interpolated = is_line && has_plain_colors && draw.source == ColorSource::interpolated;
   const bool is_plain = draw.ops == nullptr && frame.samples == 1;
   if (is_plain && (is_interpolated || has_packed_color(draw))) {
     path.kind = is_line ? Kind::lines : Kind::points;
@@ -86,6 +87,16 @@ PixelPath choose_point_or_line_path(const PixelPathFrame& frame, const TileDraw&
     path.color_write = fragment_color_write(draw);
   }
   return path;
+}
+
+/// Whether Kind::triangles_msaa supports the colours of a draw: without deferred shading neither lit pixels
+/// nor interpolated colours other than unmasked RGB 0..1.
+[[maybe_unused]] bool triangles_msaa_take_colors(const PixelPathFrame& frame, const TileDraw& draw) {
+  if (draw.deferred) return true;
+  if (draw.source == ColorSource::per_pixel) return false;
+  if (draw.source != ColorSource::interpolated) return true;
+  if (frame.layout.index || frame.layout.luminance) return false;
+  return draw.write_mask == 0xffffffffu && !draw.scaled_colors;
 }
 
 PixelPath choose_triangle_path(const PixelPathFrame& frame, const TileDraw& draw, PixelPath path) {
@@ -103,13 +114,10 @@ PixelPath choose_triangle_path(const PixelPathFrame& frame, const TileDraw& draw
   }
   path.kind = has_samples ? Kind::triangles_msaa : Kind::triangles;
   const bool is_less_write = draw.depth_test == Compare::less && draw.depth_write && draw.ops == nullptr;
-  // 32-bit integer depth is rare: one function for all tests.
+  // unorm32 depth is rare: one function for all tests.
   if (is_less_write && path.uses_depth() && path.depth_format != DepthFormat::unorm32)
     path.depth_test = DepthTestPath::less_write;
-  TESSERA_ASSERT(!has_samples || draw.deferred || draw.source != ColorSource::per_pixel);
-  TESSERA_ASSERT(!has_samples || draw.deferred || draw.source != ColorSource::interpolated ||
-                 (draw.write_mask == 0xffffffffu && !draw.scaled_colors && !frame.layout.index &&
-                  !frame.layout.luminance));
+  TESSERA_ASSERT(!has_samples || triangles_msaa_take_colors(frame, draw));
   return path;
 }
 

@@ -1,5 +1,5 @@
-// The code that the pixels of a draw go through. It is chosen once per draw, when the frame is planned;
-// tiles map it to functions of their instruction set and decide nothing themselves.
+// The code path of a draw's pixels. It is chosen once per draw, when the frame is planned; tiles only map it
+// to functions of their instruction set.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@ namespace tessera::detail {
 
 struct TileDraw;
 
-/// How a visible pixel gets its color.
+/// How a visible pixel gets its colour.
 enum class ColorWrite : std::uint8_t {
-  none,          ///< no color plane changes
-  constant,      ///< one packed color per primitive
-  interpolated,  ///< interpolated in registers, stored at once
-  blended,       ///< interpolated in registers, mixed by alpha with the stored 8-bit RGB color
-  evaluated,     ///< floating-point colors of a block, which go through the fragment operations
-  deferred       ///< the visibility buffer gets the primitive; its pixels are shaded later, in batches
+  none,          ///< no colour plane changes
+  constant,      ///< one packed colour per primitive
+  interpolated,  ///< interpolated in registers, stored immediately
+  blended,       ///< interpolated in registers, mixed by alpha with the stored 8-bit RGB colour
+  evaluated,     ///< floating-point colours of a block, which go through the fragment operations
+  deferred       ///< the primitive's number goes to the visibility buffer; batches are shaded later
 };
 
 constexpr bool is_interpolated(ColorWrite write) {
@@ -28,21 +28,21 @@ constexpr bool is_interpolated(ColorWrite write) {
 
 /// Code that tests depth and stencil.
 enum class DepthTestPath : std::uint8_t {
-  less_write,  ///< Compare::less with depth writes and without operations, which most draws use
+  less_write,  ///< Compare::less with depth writes and without fragment operations: the most common case
   generic      ///< any test, with or without writes; triangles may have a stencil test
 };
 
 struct PixelPath {
   enum class Kind : std::uint8_t {
-    triangles,           ///< by size: pixels, boxes or rows of blocks
-    triangles_msaa,      ///< the same with several samples; groups with wide triangles: as fragments
-    textured_triangles,  ///< texels and colors in registers, stored at once
+    triangles,           ///< depending on size: pixels, boxes or rows of blocks
+    triangles_msaa,      ///< several samples, block by block; groups with wide triangles: fragments_msaa
+    textured_triangles,  ///< texels and colours in registers, stored immediately
     fragments,           ///< triangles with fragment operations, block by block
-    fragments_msaa,      ///< the same with several samples
-    points,              ///< packed colors, just stored
-    lines,               ///< packed or interpolated colors, just stored
-    point_fragments,     ///< blocks of fragments, as for triangles
-    line_fragments,      ///< blocks of fragments, as for triangles
+    fragments_msaa,      ///< `fragments` with several samples
+    points,              ///< packed colours, stored immediately
+    lines,               ///< packed or interpolated colours, stored immediately
+    point_fragments,     ///< points as blocks of fragments
+    line_fragments,      ///< lines as blocks of fragments
     pixel_rectangle      ///< a bitmap or an image: blocks of fragments
   };
   Kind kind = Kind::triangles;
@@ -54,7 +54,7 @@ struct PixelPath {
   bool operator==(const PixelPath&) const = default;
 };
 
-/// Properties of a frame that decide the paths of its draws.
+/// Properties of a frame on which the paths of its draws depend.
 struct PixelPathFrame {
   ColorLayout layout;
   DepthFormat depth_format = DepthFormat::none;
@@ -63,7 +63,7 @@ struct PixelPathFrame {
   InstructionSet isa = InstructionSet::scalar;
 };
 
-/// Reads everything of `draw` but its path and the contents of its arrays.
+/// Reads all fields of `draw` except `path`, and no elements of its arrays.
 PixelPath choose_pixel_path(const PixelPathFrame& frame, const TileDraw& draw);
 
 const char* name(PixelPath::Kind kind);

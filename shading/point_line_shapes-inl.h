@@ -36,6 +36,7 @@ struct BlockCoverage {
   TileContext& context;
   TouchedBlocks& blocks;
 
+  /// @param samples  covered samples of the pixel, one bit each
   HWY_INLINE void add(int x, int y, std::uint32_t samples) {
     const int block = context.block_index(x, y) / kBlockPixels;
     if (blocks.samples[block] == 0) blocks.list[blocks.count++] = static_cast<std::uint16_t>(block);
@@ -45,25 +46,28 @@ struct BlockCoverage {
       blocks.bits[std::countr_zero(left)][block] |= static_cast<std::uint16_t>(bit);
   }
 
-  /// Draws them as fragments, and clears them.
+  /// Draws the fragments of all touched blocks, and clears the blocks.
   HWY_INLINE void draw(FragmentTriangle& fragments, const LineValues& values) {
     const int columns = context.tile_size >> 2;
     for (int n = 0; n < blocks.count; ++n) {
-      const int block = blocks.list[n], bx = block % columns * 4, by = block / columns * 4;
-      BlockFragments covered[kMaxSamples];
+      const int block = blocks.list[n];
+      const int bx = block % columns * 4, by = block / columns * 4;
+      BlockFragments samples[kMaxSamples];
       for (int s = 0; s < context.samples; ++s) {
         const std::uint32_t bits = blocks.bits[s][block];
         for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
-          covered[s].covered[chunk] = hn::VecFromMask(kInt, mask_from_bits(chunk_bits(bits, chunk)));
-          covered[s].keys[chunk] = hn::Zero(kInt);
+          samples[s].covered[chunk] = hn::VecFromMask(kInt, mask_from_bits(chunk_bits(bits, chunk)));
+          samples[s].keys[chunk] = hn::Zero(kInt);
         }
-        if (fragments.has_depth)
-          block_keys(bx, by, context.samples > 1 ? sample_positions(context.samples)[s] : SamplePosition{},
-                     values, covered[s].keys);
+        if (fragments.has_depth) {
+          const SamplePosition position =
+              context.samples > 1 ? sample_positions(context.samples)[s] : SamplePosition{};
+          block_keys(bx, by, position, values, samples[s].keys);
+        }
         blocks.bits[s][block] = 0;
       }
       blocks.samples[block] = 0;
-      fragments(bx, by, covered);
+      fragments(bx, by, samples);
     }
     blocks.count = 0;
   }
@@ -71,23 +75,25 @@ struct BlockCoverage {
  private:
   HWY_INLINE void block_keys(int bx, int by, SamplePosition position, const LineValues& values,
                              Int (&keys)[kChunksPerBlock]) const {
-    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-      keys[chunk] = values.depth.keys(values.parameters(hn::Add(splat(bx), block_columns(chunk)),
-                                                        hn::Add(splat(by), block_rows(chunk)), position));
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      const Int x = hn::Add(splat(bx), block_columns(chunk));
+      const Int y = hn::Add(splat(by), block_rows(chunk));
+      keys[chunk] = values.depth.keys(values.parameters(x, y, position));
+    }
   }
 };
 
 /// Adds the samples that `shape` covers in a rectangle of pixels.
 template <class Shape>
-HWY_INLINE void cover_samples(BlockCoverage& bits, const Shape& shape, const PixelRect& pixels) {
-  const TileContext& context = bits.context;
+HWY_INLINE void cover_samples(BlockCoverage& coverage, const Shape& shape, const PixelRect& pixels) {
+  const TileContext& context = coverage.context;
   for (int y = pixels.y0; y < pixels.y1; ++y)
     for (int x = pixels.x0; x < pixels.x1; ++x) {
       const LinePoint center = center_of(context, x, y);
       std::uint32_t samples = 0;
       for (int s = 0; s < context.samples; ++s)
         samples |= shape.covers(moved(center, sample_positions(context.samples)[s])) ? 1u << s : 0u;
-      if (samples != 0) bits.add(x, y, samples);
+      if (samples != 0) coverage.add(x, y, samples);
     }
 }
 
@@ -103,10 +109,11 @@ struct PointShape {
     for (int y = square.y0; y < square.y1; ++y)
       for (int x = square.x0; x < square.x1; ++x) pixel(x, y);
   }
-  HWY_INLINE void cover(BlockCoverage& bits) const {
+  /// Adds the covered samples.
+  HWY_INLINE void cover(BlockCoverage& coverage) const {
     const PointDisc disc(at, snapped_size(size));
     const std::int32_t reach = disc.reach() + kHalfPixel;
-    cover_samples(bits, disc, in_tile(context, pixels_near(at, at, reach)));
+    cover_samples(coverage, disc, in_tile(context, pixels_near(at, at, reach)));
   }
 };
 
@@ -126,18 +133,22 @@ struct LineShape {
           pixels(hn::Sub(x, splat(context.tile_x)), hn::Sub(y, splat(context.tile_y)), inside);
         });
   }
+  /// Calls pixel(x, y) for each covered pixel. @pre one sample
   template <class Pixel>
   HWY_INLINE void for_each(const Pixel& pixel) const {
     for_each_vector([&](Int x, Int y, LaneMask inside) HWY_ATTR {
-      alignas(64) std::int32_t columns[kLanes], rows[kLanes];
+      alignas(64) std::int32_t columns[kLanes];
+      alignas(64) std::int32_t rows[kLanes];
       hn::Store(x, kInt, columns);
       hn::Store(y, kInt, rows);
       for (std::uint32_t left = mask_bits(kInt, inside); left != 0; left &= left - 1)
         pixel(columns[std::countr_zero(left)], rows[std::countr_zero(left)]);
     });
   }
-  HWY_INLINE void cover(BlockCoverage& bits) const {
-    const LinePoint a = vertex_of(context.memory.group, i, 0), b = vertex_of(context.memory.group, i, 1);
+  /// Adds the covered samples.
+  HWY_INLINE void cover(BlockCoverage& coverage) const {
+    const LinePoint a = vertex_of(context.memory.group, i, 0);
+    const LinePoint b = vertex_of(context.memory.group, i, 1);
     const LineRectangle rectangle(a, b, snapped_size(width));
     const PixelRect pixels = in_tile(context, pixels_near(a, b, line_reach(width, context.samples)));
     for (int by = pixels.y0 & ~3; by < pixels.y1; by += 4)
@@ -145,7 +156,7 @@ struct LineShape {
         const LinePoint center{(context.tile_x + bx + 2) * kSubpixelScale,
                                (context.tile_y + by + 2) * kSubpixelScale};
         if (rectangle.may_touch(center, 2 * kSubpixelScale))
-          cover_samples(bits, rectangle, intersect(pixels, {bx, by, bx + 4, by + 4}));
+          cover_samples(coverage, rectangle, intersect(pixels, {bx, by, bx + 4, by + 4}));
       }
   }
 };

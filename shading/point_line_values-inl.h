@@ -39,7 +39,9 @@ class LineDepth {
       return;
     }
     // Depth words of 16 and 24 bits include the half that rounds the level.
-    const double scale = kind == DepthFormat::unorm16 ? 0x1p-16 : kind == DepthFormat::unorm24 ? 0x1p-8 : 1;
+    double scale = 1;
+    if (kind == DepthFormat::unorm16) scale = 0x1p-16;
+    else if (kind == DepthFormat::unorm24) scale = 0x1p-8;
     first_ = scale * (z0 + whole_offset(offset));
     change_ = scale * (static_cast<double>(z1) - z0);
     max_depth_ = scale * 4294967295.0;
@@ -70,7 +72,7 @@ HWY_INLINE std::int32_t point_key(DepthFormat kind, std::uint32_t z, double offs
   return depth_key_from_stored(kind, word >> (32 - depth_bits(kind)));
 }
 
-/// Positions of pixels along a line: pixels are projected onto it. A point is the same everywhere.
+/// Positions of pixels along a line, onto which pixels are projected. All pixels of a point have its values.
 struct LineValues {
   std::int32_t first_x, first_y;  // from the first vertex to the tile's first pixel centre, 1/256 pixel
   double dx, dy, per_squared_length;
@@ -88,7 +90,7 @@ struct LineValues {
     const double squared_length = dx * dx + dy * dy;
     per_squared_length = squared_length > 0 ? 1 / squared_length : 0;
   }
-  /// [GL 2.1, equation 3.5] at the centers of the tile's pixels, moved by `by`.
+  /// [GL 2.1, equation 3.5] at the centres of the tile's pixels, moved by `by`.
   HWY_INLINE Doubles parameters(Int x, Int y, SamplePosition by = {}) const {
     const auto from_first = [](Int pixel, std::int32_t first) HWY_ATTR {
       return to_doubles(hn::Add(hn::ShiftLeft<kSubpixelBits>(pixel), splat(first)));
@@ -98,14 +100,16 @@ struct LineValues {
   }
 };
 
-/// 1/w of the ends relative to the larger one; equal if that leaves the range of floats (as for triangles:
-/// raster/triangle_setup-inl.h).
+/// 1/w of both ends relative to the larger one. Both are 1 if the larger one is out of range, as for
+/// triangles (raster/triangle_setup-inl.h).
 struct RelativeRw {
   float of[2] = {1, 1};
 
   HWY_INLINE RelativeRw(const TriangleGroup& g, int i, int second) {
-    const float a = g.rw[0][i], b = g.rw[second][i], largest = a > b ? a : b;
-    if (a == b || !(largest > 0x1p-120f && largest < 0x1p120f)) return;
+    const float a = g.rw[0][i], b = g.rw[second][i];
+    const float largest = a > b ? a : b;
+    const bool in_range = largest > 0x1p-120f && largest < 0x1p120f;
+    if (a == b || !in_range) return;
     of[0] = a / largest;
     of[1] = b / largest;
   }

@@ -1,5 +1,5 @@
-// x^y in lanes for highlights and cones: products if y is a small whole number, as most materials have, else
-// polynomials evaluated in a fixed order, with the same bits on every target. Twin: power_reference.h.
+// x^y in lanes for highlights and cones: products if y is a small whole number, as in most materials,
+// otherwise polynomials evaluated in a fixed order; bit-identical on every target. Twin: power_reference.h.
 // Coefficients: Chebyshev fits of log2(1 + t) / t on [sqrt(1/2) - 1, sqrt(2) - 1] (relative error 7.8e-9) and
 // of 2^t on [-1/2, 1/2] (2.0e-9); the remaining error is rounding.
 #if defined(TESSERA_SHADING_POWER_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -31,8 +31,7 @@ HWY_INLINE Float log2_lanes(Float x) {
 
 /// 2^x for x in [-126, 127].
 HWY_INLINE Float exp2_lanes(Float x) {
-  // Adding and subtracting 1.5 * 2^23 rounds to the nearest integer, ties to even, identically on all
-  // targets.
+  // Adding and subtracting 1.5 * 2^23 rounds to the nearest integer, ties to even, on all targets.
   const Float rounded = hn::Sub(hn::Add(x, splat(kRoundingBias)), splat(kRoundingBias));
   const Int whole = truncate(rounded);
   const Float t = hn::Sub(x, rounded);
@@ -50,15 +49,17 @@ HWY_INLINE Float power_lanes(Float x, float y) {
   return hn::IfThenElseZero(positive, exp2_lanes(product));
 }
 
-/// x^n in place for n = 1 .. kMaxIntegerExponent, by products of squares; the error is that of n - 1
-/// roundings. 0 for x <= 0 or NaN; x below `min_base` counts as min_base; results are at most 2^96. Several x
-/// at a time: the branches on n are the same for all.
+/// x^n in place for n = 1 .. kMaxIntegerExponent, by products of squares, with the error of n - 1 roundings.
+/// - 0 for x <= 0 or NaN. x below `min_base` counts as min_base. Results are at most 2^96.
+/// - Takes several x at a time, because the branches on n are the same for all.
 /// @param min_base  2^min_base_log2(n)
 template <std::size_t kCount>
 HWY_INLINE void integer_power_lanes(Float (&x)[kCount], int n, float min_base) {
   Float square[kCount], product[kCount];
-  for (std::size_t i = 0; i < kCount; ++i)
-    square[i] = greater_of(x[i], splat(min_base)), product[i] = splat(1.0f);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    square[i] = greater_of(x[i], splat(min_base));
+    product[i] = splat(1.0f);
+  }
   for (int rest = n;;) {
     if ((rest & 1) != 0)
       for (std::size_t i = 0; i < kCount; ++i) product[i] = hn::Mul(product[i], square[i]);
@@ -70,21 +71,22 @@ HWY_INLINE void integer_power_lanes(Float (&x)[kCount], int n, float min_base) {
     x[i] = hn::IfThenElseZero(hn::Gt(x[i], hn::Zero(kFloat)), lesser_of(product[i], splat(kMaxPower)));
 }
 
-/// Calls run(raise), where raise(x) raises the elements of an array to that power in place: the method is
-/// chosen once for many x. x^0 is 1 for any x.
+/// Calls run(raise), where raise(x) raises the elements of an array to `power` in place: the method is chosen
+/// once for many x. x^0 is 1 for any x.
 template <class Run>
 HWY_INLINE void with_power(const Power& power, const Run& run) {
-  if (power.whole != 0)
+  if (power.whole != 0) {
     run([power]<std::size_t kCount>(Float(&x)[kCount])
             HWY_ATTR { integer_power_lanes(x, power.whole, power.min_base); });
-  else if (power.exponent == 0)
+  } else if (power.exponent == 0) {
     run([]<std::size_t kCount>(Float(&x)[kCount]) HWY_ATTR {
-      for (Float& one : x) one = splat(1.0f);
+      for (Float& element : x) element = splat(1.0f);
     });
-  else
+  } else {
     run([power]<std::size_t kCount>(Float(&x)[kCount]) HWY_ATTR {
-      for (Float& one : x) one = power_lanes(one, power.exponent);
+      for (Float& element : x) element = power_lanes(element, power.exponent);
     });
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -6,26 +6,26 @@
 namespace tessera::detail {
 
 inline constexpr std::int32_t kSqrtHalfBits = 0x3f3504f3;  ///< bits of sqrt(1/2) as a float
-inline constexpr float kRoundingBias = 0x1.8p23f;
+inline constexpr float kRoundingBias = 0x1.8p23f;          ///< added and subtracted, it rounds to an integer
 inline constexpr float kMinNormal = 0x1p-126f;
-/// Powers are clamped to 2^96.
-inline constexpr float kMaxLog2 = 96.0f, kMaxPower = 0x1p96f;
+inline constexpr float kMaxLog2 = 96.0f;
+inline constexpr float kMaxPower = 0x1p96f;  ///< powers are clamped to this
 
-/// Whole exponents up to this are products of squares.
+/// Powers with whole exponents up to this are computed as products of squares.
 inline constexpr int kMaxIntegerExponent = 64;
-/// The exponent as such a whole number; else 0.
+/// The exponent, if it is a whole number from 1 to kMaxIntegerExponent; otherwise 0.
 constexpr int integer_exponent(float exponent) {
   const int whole = exponent >= 1 && exponent <= kMaxIntegerExponent ? static_cast<int>(exponent) : 0;
   return static_cast<float>(whole) == exponent ? whole : 0;
 }
-/// log2 of the least base under a whole exponent, slightly above -126 / n, so that no product is subnormal.
+/// log2 of the smallest base for a whole exponent n: above -126 / n, so that no product is subnormal.
 constexpr float min_base_log2(int whole) { return -125.99f / static_cast<float>(whole); }
 
-/// Method to raise many numbers to one power. Default: x^0.
+/// An exponent, and the method to raise many numbers to it. Default: x^0.
 struct Power {
   float exponent = 0;
   int whole = 0;       ///< integer_exponent(exponent)
-  float min_base = 0;  ///< 2^min_base_log2(whole): smaller bases count as this
+  float min_base = 0;  ///< 2^min_base_log2(whole): smaller positive bases count as this
 };
 
 inline constexpr int kLog2Terms = 10;

@@ -34,26 +34,27 @@ inline float power_reference(float x, float y) {
   if (!(x > 0.0f)) return 0.0f;
   const float safe = x > kMinNormal ? x : kMinNormal;
   const float product = log2_reference(safe) * y;
-  const float low = product > -126.0f ? product : -126.0f;
-  return exp2_reference(low < kMaxLog2 ? low : kMaxLog2);
+  const float at_least_min = product > -126.0f ? product : -126.0f;
+  return exp2_reference(at_least_min < kMaxLog2 ? at_least_min : kMaxLog2);
 }
 
 inline float integer_power_reference(float x, int n) {
   if (!(x > 0.0f)) return 0.0f;
   const float min_base = exp2_reference(min_base_log2(n));
-  float square = x > min_base ? x : min_base, product = 1;
+  float square = x > min_base ? x : min_base;
+  float product = 1;
   for (int rest = n; rest != 0; rest >>= 1, square *= square)
     if ((rest & 1) != 0) product *= square;
   return product < kMaxPower ? product : kMaxPower;
 }
 
-/// x^exponent as kernels compute it. Kernels plan `min_base` once, not for each batch.
+/// Chooses the method for an exponent. Called once when lighting is planned.
 inline Power make_power(float exponent) {
   const int whole = integer_exponent(exponent);
   return {exponent, whole, whole != 0 ? exp2_reference(min_base_log2(whole)) : 0};
 }
 
-/// x^0 is 1 for any x.
+/// x^exponent as kernels compute it. x^0 is 1 for any x.
 inline float power_of_reference(float x, float exponent) {
   if (const int whole = integer_exponent(exponent); whole != 0) return integer_power_reference(x, whole);
   return exponent == 0 ? 1.0f : power_reference(x, exponent);

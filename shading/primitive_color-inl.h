@@ -1,4 +1,4 @@
-// Colors of primitives that have one color, for example flat triangles.
+// Colours of primitives that have one colour, for example flat triangles.
 #if defined(TESSERA_SHADING_PRIMITIVE_COLOR_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_PRIMITIVE_COLOR_INL_H_
 #undef TESSERA_SHADING_PRIMITIVE_COLOR_INL_H_
@@ -18,15 +18,18 @@ HWY_INLINE std::size_t provoking_vertex(const TileDraw& draw, std::uint32_t elem
   return draw.indices ? draw.indices[corner] : corner;
 }
 
-/// Packed color of element i of the group. @pre ColorSource::constant or a packed one
+/// Packed colour of element i of the group.
+/// @pre ColorSource::constant, per_vertex_packed or per_triangle_packed; or an IdOutput
 HWY_INLINE std::uint32_t packed_color_of(const TileContext& context, const TileDraw& draw, int i, bool back) {
+  const int face = back ? 1 : 0;
   if (draw.source == ColorSource::per_triangle_packed)
-    return draw.packed_colors[back ? 1 : 0][context.memory.source[i]];
-  if (draw.source != ColorSource::per_vertex_packed) return draw.packed_color;
-  return draw.packed_colors[back ? 1 : 0][provoking_vertex(draw, context.memory.source[i])];
+    return draw.packed_colors[face][context.memory.source[i]];
+  if (draw.source == ColorSource::per_vertex_packed)
+    return draw.packed_colors[face][provoking_vertex(draw, context.memory.source[i])];
+  return draw.packed_color;
 }
 
-/// Color of a flat triangle, r g b a or an index: its own, or that of its provoking vertex.
+/// Colour of a flat triangle, r g b a or an index: TileDraw::face_colors, or that of its provoking vertex.
 HWY_INLINE const float* flat_color(const TileDraw& draw, std::uint32_t source, bool back) {
   const int face = back ? 1 : 0;
   if (draw.face_colors[face] != nullptr) return draw.face_colors[face] + std::size_t{source} * 4;

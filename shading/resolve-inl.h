@@ -1,4 +1,4 @@
-// MSAA resolve: a pixel's color is the mean of its samples' stored levels. Twin: resolve_reference.h.
+// MSAA resolve: a pixel's colour is the mean of its samples' stored levels. Twin: resolve_reference.h.
 #if defined(TESSERA_SHADING_RESOLVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_RESOLVE_INL_H_
 #undef TESSERA_SHADING_RESOLVE_INL_H_
@@ -12,14 +12,17 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Bit fields of a packed color.
+/// Bit fields of a packed colour.
 struct PackedFields {
-  int count = 0, shift[4], bits[4];
+  int count = 0;
+  int shift[4];
+  int bits[4];
+
   explicit PackedFields(const ColorLayout& layout) {
-    const auto add = [this](int at, int width) {
-      if (width == 0) return;
-      shift[count] = at;
-      bits[count++] = width;
+    const auto add = [this](int field_shift, int field_bits) {
+      if (field_bits == 0) return;
+      shift[count] = field_shift;
+      bits[count++] = field_bits;
     };
     add(layout.bits, layout.alpha_bits);
     add(layout.r_shift(), layout.luminance ? 0 : layout.r_bits);
@@ -28,7 +31,7 @@ struct PackedFields {
   }
 };
 
-/// Resolves the samples' colors into the workspace's color.
+/// Resolves the samples' colours into the colours of the tile.
 inline HWY_NOINLINE void resolve_samples(TileContext& context) {
   const PackedFields fields(context.frame.layout);
   const int shift = context.samples == 8 ? 3 : 2;
@@ -36,18 +39,18 @@ inline HWY_NOINLINE void resolve_samples(TileContext& context) {
     const auto packed = [&](int s) HWY_ATTR {
       return hn::Load(kInt, reinterpret_cast<const std::int32_t*>(context.sample[s].color) + i);
     };
-    Int mean = packed(0), differing = hn::Zero(kInt);
+    Int mean = packed(0);
+    Int differing = hn::Zero(kInt);
     for (int s = 1; s < context.samples; ++s) differing = hn::Or(differing, hn::Xor(packed(s), mean));
     if (!hn::AllTrue(kInt, hn::Eq(differing, hn::Zero(kInt)))) {
       mean = hn::Zero(kInt);
       for (int f = 0; f < fields.count; ++f) {
         const Int mask = splat((1 << fields.bits[f]) - 1);
         Int sum = splat(context.samples / 2);
-        for (int s = 0; s < context.samples; ++s)
-          sum = hn::Add(
-              sum,
-              hn::And(hn::BitCast(kInt, hn::ShiftRightSame(hn::BitCast(kUint, packed(s)), fields.shift[f])),
-                      mask));
+        for (int s = 0; s < context.samples; ++s) {
+          const auto shifted = hn::ShiftRightSame(hn::BitCast(kUint, packed(s)), fields.shift[f]);
+          sum = hn::Add(sum, hn::And(hn::BitCast(kInt, shifted), mask));
+        }
         mean = hn::Or(mean, hn::ShiftLeftSame(hn::ShiftRightSame(sum, shift), fields.shift[f]));
       }
     }

@@ -5,7 +5,8 @@
 
 namespace tessera::detail {
 
-/// The mean of the samples' levels, each component rounded to the nearest, halves up. @param samples  4 or 8
+/// The mean of the samples' levels: each component is rounded to the nearest level, halves up.
+/// @param samples  4 or 8
 inline std::uint32_t resolve_reference(const ColorLayout& layout, const std::uint32_t* packed, int samples) {
   const auto mean = [&](int shift, int bits) {
     std::uint32_t sum = static_cast<std::uint32_t>(samples) / 2;

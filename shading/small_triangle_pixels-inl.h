@@ -1,5 +1,5 @@
-// Pixels of small triangles with interpolated colors: those of a whole group are evaluated in lanes, and
-// tested and stored one by one, in order.
+// Pixels of small triangles with interpolated colours: the pixels of a whole group are evaluated in lanes,
+// then tested and stored one by one, in order.
 #if defined(TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_
 #undef TESSERA_SHADING_SMALL_TRIANGLE_PIXELS_INL_H_
@@ -21,20 +21,23 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Pixels of a group's small triangles in drawing order, and their colors.
+/// Pixels of a group's small triangles in drawing order, and their colours.
 struct SmallTrianglePixels {
   static constexpr int kCapacity = kGroupSize * kBlockPixels;
   int count = 0;
   alignas(64) std::int32_t place[kCapacity + kLanes];   // triangle << 16 | y << 8 | x, tile-relative
   alignas(64) std::int32_t index[kCapacity + kLanes];   // the pixel in the tile
   alignas(64) std::int32_t key[kCapacity + kLanes];     // depth key, if kHasKeys
-  alignas(64) std::int32_t packed[kCapacity + kLanes];  // color
+  alignas(64) std::int32_t packed[kCapacity + kLanes];  // packed colour
   std::uint32_t triangles = 0;                          // triangles with pixels, one bit each
+
   static_assert(kMaxTileSize <= 256);
   static HWY_INLINE Int x_of(Int at) { return hn::And(at, splat(255)); }
-  HWY_INLINE int triangle(int p) const { return place[p] >> 16; }
   static HWY_INLINE Int y_of(Int at) { return hn::And(hn::ShiftRight<8>(at), splat(255)); }
+  HWY_INLINE int triangle(int p) const { return place[p] >> 16; }
 
+  /// Adds the pixels of triangle i.
+  /// @param hits  4 rows of 4 bits from (x0, y0)
   HWY_INLINE void add(const TriangleGroup& g, int i, std::uint32_t hits) {
     const std::int32_t first = i << 16 | g.y0[i] << 8 | g.x0[i];
     triangles |= 1u << i;
@@ -49,22 +52,21 @@ struct SmallTrianglePixels {
     }
 #endif
   }
-  /// Evaluates the colors, with the barycentric coordinates of barycentric_from_edges(). @pre
-  /// set_up_weights()
+  /// Evaluates indices and colours, bit-identical to barycentric_from_edges() and GouraudColorEval.
+  /// @pre set_up_weights() has run for the group
   HWY_INLINE void set_up(const TileContext& context, const TileDraw& draw) {
     const TriangleGroup& g = context.memory.group;
     SmallTriangleColorEval colors;
     colors.set_up(context, draw, triangles);
     hn::StoreU(hn::Zero(kInt), kInt, place + count);
     for (int first = 0; first < count; first += kLanes) {
-      const Int at = hn::Load(kInt, place + first), of_triangle = hn::ShiftRight<16>(at), at_x = x_of(at),
-                at_y = y_of(at);
-      const PickByTriangle pick(of_triangle);
-      hn::StoreU(context.pixel_indices(at_x, at_y), kInt, index + first);
+      const Int at = hn::Load(kInt, place + first);
+      const Int x = x_of(at), y = y_of(at);
+      const PickByTriangle pick(hn::ShiftRight<16>(at));
+      hn::StoreU(context.pixel_indices(x, y), kInt, index + first);
       Float w[3];
       for (int k = 0; k < 3; ++k) {
-        const Int edge =
-            hn::Add(pick(g.e[k]), hn::Add(hn::Mul(pick(g.a[k]), at_x), hn::Mul(pick(g.b[k]), at_y)));
+        const Int edge = hn::Add(pick(g.e[k]), hn::Add(hn::Mul(pick(g.a[k]), x), hn::Mul(pick(g.b[k]), y)));
         w[k] = mul_add(hn::ConvertTo(kFloat, edge), pick(g.scale[k]), pick(g.shift[k]));
       }
       const auto affine = hn::RebindMask(kFloat, hn::Ne(pick(g.affine), hn::Zero(kInt)));
@@ -77,10 +79,10 @@ struct SmallTrianglePixels {
       hn::Store(colors.packed(pick, w[1], w[2]), kInt, packed + first);
     }
   }
-  /// Whether depth keys are computed in lanes: needs products of 64 bits.
+  /// Whether depth keys are computed in lanes, which takes products of 64 bits.
   template <class Depth>
-  static constexpr bool kHasKeys = HWY_TARGET == HWY_AVX3&& std::is_same_v<Depth, UnormDepth>;
-  /// As UnormDepth::key(). @pre set_up()
+  static constexpr bool kHasKeys = (HWY_TARGET == HWY_AVX3) && std::is_same_v<Depth, UnormDepth>;
+  /// Computes the depth keys, bit-identical to UnormDepth::key(). @pre kHasKeys, and set_up() has run
   HWY_INLINE void set_up_keys([[maybe_unused]] const TriangleGroup& g, [[maybe_unused]] DepthFormat kind) {
 #if HWY_TARGET == HWY_AVX3
     const int shift = kind == DepthFormat::unorm16 ? 16 : 8;
@@ -97,10 +99,10 @@ struct SmallTrianglePixels {
                                 _mm512_add_epi64(_mm512_mullo_epi64(pick(g.fixed_dx), x),
                                                  _mm512_mullo_epi64(pick(g.fixed_dy), y)));
       };
-      const __m512i low = keys_of([](__m512i all) HWY_ATTR { return _mm512_castsi512_si256(all); }),
-                    high = keys_of([](__m512i all) HWY_ATTR { return _mm512_extracti64x4_epi64(all, 1); });
-      hn::Store(hn::BitCast(kInt, hn::ShiftRightSame(hn::ConcatOdd(kUint, Uint{high}, Uint{low}), shift)),
-                kInt, key + first);
+      const __m512i low = keys_of([](__m512i all) HWY_ATTR { return _mm512_castsi512_si256(all); });
+      const __m512i high = keys_of([](__m512i all) HWY_ATTR { return _mm512_extracti64x4_epi64(all, 1); });
+      const Uint upper_halves = hn::ConcatOdd(kUint, Uint{high}, Uint{low});
+      hn::Store(hn::BitCast(kInt, hn::ShiftRightSame(upper_halves, shift)), kInt, key + first);
     }
 #endif
   }

@@ -1,4 +1,4 @@
-// Stencil test and operations as constants, so that pixels need no branch on their kind.
+// Stencil test and actions as constants of one formula each, so that pixels need no branch on the operation.
 #pragma once
 
 #include <algorithm>
@@ -9,17 +9,21 @@
 
 namespace tessera::detail {
 
-/// An operation: min(max(((stored & keep) ^ flip) + add, min_value), max_value), stored under the write mask.
+/// A stencil action: min(max(((stored & keep) ^ flip) + add, min_value), max_value). The caller applies the
+/// write mask. The default keeps the value.
 struct StencilOpConstants {
-  std::int32_t keep = -1, flip = 0, add = 0;
-  std::int32_t min_value = std::numeric_limits<std::int32_t>::min(),
-               max_value = std::numeric_limits<std::int32_t>::max();
+  std::int32_t keep = -1;
+  std::int32_t flip = 0;
+  std::int32_t add = 0;
+  std::int32_t min_value = std::numeric_limits<std::int32_t>::min();
+  std::int32_t max_value = std::numeric_limits<std::int32_t>::max();
 
   constexpr std::int32_t operator()(std::int32_t stored) const {
     return std::min(std::max(((stored & keep) ^ flip) + add, min_value), max_value);
   }
 };
 
+/// @param max_value  of the buffer: 2^bits - 1
 constexpr StencilOpConstants stencil_op_constants(StencilOp action, std::int32_t reference,
                                                   std::int32_t max_value) {
   switch (action) {
@@ -34,11 +38,13 @@ constexpr StencilOpConstants stencil_op_constants(StencilOp action, std::int32_t
   }
 }
 
-/// Stored values v for which `reference func v` passes: `count` values from `first` on, modulo 2^32. Stored
-/// values are below 2^31.
+/// Masked stored values that pass: `count` values from `first` on, modulo 2^32.
 struct PassingValues {
-  std::uint32_t first = 0, count = 0;
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
 };
+
+/// The values v, all below 2^31, for which `reference func v` holds.
 constexpr PassingValues passing_values(Compare func, std::int32_t reference) {
   const auto value = static_cast<std::uint32_t>(reference);
   constexpr std::uint32_t kAllStored = std::uint32_t{1} << 31;
@@ -54,13 +60,18 @@ constexpr PassingValues passing_values(Compare func, std::int32_t reference) {
   }
 }
 
+/// Stencil test and actions of one face.
 struct StencilTestConstants {
   PassingValues passing;
   std::int32_t mask = 0;
   std::int32_t write_mask = 0;
-  StencilOpConstants fail, zfail, zpass;
-  bool fail_writes = false, zfail_writes = false,
-       zpass_writes = false;  ///< false: that outcome changes nothing
+  StencilOpConstants fail;
+  StencilOpConstants zfail;
+  StencilOpConstants zpass;
+  // Whether the action of each outcome may change the stored value.
+  bool fail_writes = false;
+  bool zfail_writes = false;
+  bool zpass_writes = false;
 
   constexpr bool writes() const { return fail_writes || zfail_writes || zpass_writes; }
   constexpr bool passes(std::int32_t stored) const {

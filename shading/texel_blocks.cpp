@@ -22,10 +22,12 @@ bool TexelPlaces::same_in_block(const TexelPlaces& other, int bx, int by) const 
 }
 
 std::uint32_t TexelPlaces::covered(const PixelRectangle& texels, int bx, int by) const {
-  std::uint32_t columns = 0, bits = 0;
+  std::uint32_t columns = 0;  // columns of the block with texels, one bit each
   for (int i = 0; i < kBlockSize; ++i) columns |= column[bx + i] != kNoTexel ? 1u << i : 0;
+  std::uint32_t bits = 0;
   for (int i = 0; i < kBlockSize; ++i) bits |= row[by + i] != kNoTexel ? columns << (i * kBlockSize) : 0;
   if (texels.channels != 0) return bits;
+  // Bitmap: pixels whose bit is 0 are not covered.
   for (std::uint32_t left = bits; left != 0; left &= left - 1) {
     const int p = std::countr_zero(left);
     if (!texels.bit(column[bx + p % kBlockSize], row[by + p / kBlockSize])) bits &= ~(1u << p);
@@ -37,13 +39,14 @@ void TexelPlaces::fetch(const PixelRectangle& texels, int bx, int by, std::uint3
                         float* colors) const {
   std::fill_n(colors, 4 * kBlockPixels, 0.0f);
   const bool is_grey = texels.channels < 3;
+  const bool has_alpha = texels.channels % 2 == 0;
   for (std::uint32_t left = bits; left != 0; left &= left - 1) {
     const int p = std::countr_zero(left);
     const std::uint8_t* const at =
         texels.row(row[by + p / kBlockSize]) + std::ptrdiff_t{column[bx + p % kBlockSize]} * texels.channels;
     const std::uint8_t levels[4] = {at[0], at[is_grey ? 0 : 1], at[is_grey ? 0 : 2],
-                                    texels.channels % 2 == 0 ? at[texels.channels - 1] : std::uint8_t{255}};
-    // A division, so that a level becomes the nearest float: tests compare with such values.
+                                    has_alpha ? at[texels.channels - 1] : std::uint8_t{255}};
+    // A division yields the float nearest to level / 255, as alpha tests against such a reference need it.
     for (int c = 0; c < 4; ++c) colors[c * kBlockPixels + p] = static_cast<float>(levels[c]) / 255.0f;
   }
 }

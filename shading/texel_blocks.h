@@ -1,5 +1,5 @@
 // Texels of a bitmap or an image at the pixels of a tile's blocks. Compiled once for all instruction sets:
-// the operations on the fragments take longer.
+// most of the time goes into the operations on the fragments.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct TexelTile {
   const PixelRectangle& texels;
   const TileGrid& grid;
   int tile_x, tile_y;  ///< the tile's corner, raster space
-  PixelRect rect;      ///< where the draw may change pixels, tile-relative
+  PixelRect rect;      ///< the draw's rectangle, tile-relative
 };
 
 /// The texel at each column and row of a tile, for one sample; kNoTexel outside the draw's rectangle.
@@ -23,9 +23,11 @@ struct TexelPlaces {
 
   void set_up(const TexelTile& tile, int samples, int sample);
   bool same_in_block(const TexelPlaces& other, int bx, int by) const;
-  /// Pixels of a block with a texel, or with a bit of a bitmap that is set; 16 bits.
+  /// Covered pixels of a block, 16 bits: those with a texel of the image, or with a set bit of the bitmap.
   std::uint32_t covered(const PixelRectangle& texels, int bx, int by) const;
-  /// Writes the colors 0..1 of these pixels: r of the whole block, then g, b and a. @pre an image
+  /// Writes the colours 0..1 of a block: r of all pixels, then g, b and a.
+  /// @pre `texels` are an image
+  /// @param bits  covered(); the colours of other pixels are 0
   void fetch(const PixelRectangle& texels, int bx, int by, std::uint32_t bits, float* colors) const;
 };
 

@@ -1,7 +1,7 @@
 // Textures as kernels read them: levels of 32-bit texels, filters, and the texture environment.
 //
-// Each row of a level is padded by the texel that follows the last under the texture's wrap mode, and the
-// level by one row: the four texels of a bilinear filter are always two pairs of neighbours.
+// Each row of a level is padded by the texel that follows the last one under the wrap mode, and each level by
+// one row, so that the four texels of a bilinear filter are always two pairs of neighbours.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,10 @@ inline constexpr int kMaxTextureLevels = 15;  ///< 16384 .. 1
 
 /// Texels along one side of a level, in fixed point with 16 fraction bits.
 struct TexelAxis {
-  float scale;             ///< number of texels
-  std::int32_t all, last;  ///< number of texels; the last texel
+  float scale;        ///< number of texels
+  std::int32_t all;   ///< number of texels
+  std::int32_t last;  ///< the last texel
+
   explicit TexelAxis(std::int32_t texels)
       : scale(static_cast<float>(texels) * 65536.0f), all(texels * 65536), last((texels - 1) * 65536) {}
 };
@@ -39,17 +41,20 @@ struct TextureLevel {
 /// Bit offsets of r, g, b and a in a texel.
 inline constexpr int kTexelShift[4] = {16, 8, 0, 24};
 
-/// Filter of a draw's texture: the common ones have kernels, `any` handles all others.
+/// Filter of a draw's texture. The common ones have their own kernels; `any` handles all others.
 enum class TexelFilter : std::uint8_t { nearest, linear, linear_mipmapped, any };
 
 struct TextureLevels {
   const std::uint32_t* words = nullptr;  ///< texels of all levels; rows from the bottom
   TextureLevel level[kMaxTextureLevels];
   int last = 0;                               ///< last level; above 0: mipmaps
-  bool mag_linear = true, min_linear = true;  ///< bilinear within a level; else the nearest texel
-  bool blends_levels = false;                 ///< mipmaps: the two nearest levels; else the nearest one
+  bool mag_linear = true, min_linear = true;  ///< within a level: bilinear; false: the nearest texel
+  bool blends_levels = false;                 ///< mipmaps: interpolate two levels; false: the nearest level
   TextureWrap wrap_s = TextureWrap::repeat, wrap_t = TextureWrap::repeat;
   bool gathers_pairs = false;  ///< machine_has_fast_gather()
+  /// Largest squared footprint, in texels per pixel, that counts as magnification: 2^(2 c) with the c of
+  /// [GL 2.1, 3.8.9], which is 0, or 0.5 if magnification is the sharper filter.
+  float magnification_limit = 1;
 
   /// Whether the filter depends on the texels per pixel.
   bool needs_footprint() const { return last > 0 || mag_linear != min_linear; }
@@ -57,9 +62,6 @@ struct TextureLevels {
     if (!needs_footprint()) return mag_linear ? TexelFilter::linear : TexelFilter::nearest;
     return mag_linear && min_linear ? TexelFilter::linear_mipmapped : TexelFilter::any;
   }
-  /// Largest squared footprint, in texels per pixel, that counts as magnification [GL 2.1, 3.8.9]: c is 0, or
-  /// 0.5 if magnification is the sharper filter.
-  float magnification_limit = 1;
 };
 
 /// The texture of a draw and its environment.
@@ -75,11 +77,13 @@ struct DrawTexture {
   bool changes_alpha() const { return has_alpha && function != TextureEnv::decal; }
 };
 
-/// 1.0 in texel components of 16 bits, which are levels times 256. Divided by this, a level becomes the
-/// nearest float: tests compare with such values.
+/// 1.0 in texel components of 16 bits, which are levels times 256. Division by this yields the float nearest
+/// to level / 255, as alpha tests against such a reference need it.
 inline constexpr float kTexelOne = 65280.0f;
 
-/// A color 0..1 under a texel [GL 1.5, 3.8.13]. Scalar twin of texture_env_lanes().
+/// Applies the texture environment to a colour 0..1 [GL 1.5, 3.8.13]. Scalar twin of texture_env_lanes().
+/// @param f  colour of the fragment, r g b a
+/// @param t  texel
 inline std::array<float, 4> texture_env_reference(const DrawTexture& texture, const std::array<float, 4>& f,
                                                   const std::array<float, 4>& t) {
   std::array<float, 4> c = f;

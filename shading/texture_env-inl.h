@@ -13,12 +13,12 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// TextureEnv::modulate without alpha, the most common function.
+/// TextureEnv::modulate for textures without alpha, the most common case.
 HWY_INLINE Colors modulated(const Colors& f, const Colors& t) {
   return {{hn::Mul(f.c[0], t.c[0]), hn::Mul(f.c[1], t.c[1]), hn::Mul(f.c[2], t.c[2]), f.c[3]}};
 }
 
-/// Alpha under a texel's.
+/// Alpha `f` of the fragment under alpha `t` of the texel.
 HWY_INLINE Float texture_env_alpha(const DrawTexture& texture, Float f, Float t) {
   if (!texture.changes_alpha()) return f;
   return texture.function == TextureEnv::replace ? t : hn::Mul(f, t);

@@ -17,12 +17,12 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Applies the wrap mode: a coordinate in the image, 0..1. A NaN becomes 0.
+/// Applies the wrap mode. The result is in 0..1; a NaN becomes 0.
 HWY_INLINE Float wrapped(Float f, TextureWrap wrap) {
   if (wrap == TextureWrap::repeat) return clamped_below(hn::Sub(f, hn::Floor(f)));
-  const Float there_and_back = neg_mul_add(splat(2.0f), hn::Floor(hn::Mul(f, splat(0.5f))), f);  // 0..2
-  return clamped_unit(
-      wrap == TextureWrap::clamp_to_edge ? f : hn::Min(there_and_back, hn::Sub(splat(2.0f), there_and_back)));
+  if (wrap == TextureWrap::clamp_to_edge) return clamped_unit(f);
+  const Float within_two = neg_mul_add(splat(2.0f), hn::Floor(hn::Mul(f, splat(0.5f))), f);  // 0..2
+  return clamped_unit(hn::Min(within_two, hn::Sub(splat(2.0f), within_two)));
 }
 
 /// The texel that holds a coordinate.
@@ -30,23 +30,27 @@ HWY_INLINE Int nearest_texel(Float unit, const TexelAxis& axis) {
   return hn::ShiftRight<16>(hn::Min(truncate(hn::Mul(unit, splat(axis.scale))), splat(axis.last)));
 }
 
-/// The first of the two texels between whose centers a coordinate lies, and the fraction of the way to the
+/// The first of the two texels between whose centres a coordinate lies, and the fraction of the way to the
 /// next, in both halves of the lane.
 struct TexelPosition {
   Int texel, fraction;
 };
 HWY_INLINE TexelPosition bilinear_position(Float unit, const TexelAxis& axis, TextureWrap wrap) {
   Int at = hn::Sub(truncate(hn::Mul(unit, splat(axis.scale))), splat(1 << 15));
-  // repeat: left of the first center lies the last texel. Negative values are large as unsigned ones.
-  if (wrap == TextureWrap::repeat)
+  if (wrap == TextureWrap::repeat) {
+    // The last texel lies left of the first centre. Negative values are large as unsigned ones.
     at = hn::BitCast(kInt, hn::Min(hn::BitCast(kUint, at), hn::BitCast(kUint, hn::Add(at, splat(axis.all)))));
-  else at = hn::Max(hn::Min(at, splat(axis.last)), hn::Zero(kInt));
+  } else {
+    at = hn::Max(hn::Min(at, splat(axis.last)), hn::Zero(kInt));
+  }
   return {hn::ShiftRight<16>(at), twice(at)};
 }
 
+/// Nearest texels, as stored.
 /// @param words  texels of the level
 HWY_INLINE Int nearest_words(const std::uint32_t* words, const TextureLevel& level, Float s, Float t) {
-  const Int column = nearest_texel(s, level.columns), row = nearest_texel(t, level.rows);
+  const Int column = nearest_texel(s, level.columns);
+  const Int row = nearest_texel(t, level.rows);
   return load_words(words, hn::Add(column, hn::Mul(row, splat(level.stride))));
 }
 HWY_INLINE Texels nearest_texels(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
@@ -61,8 +65,8 @@ struct BilinearTexels {
   Int index, to_right, to_next_row;
 
   HWY_INLINE void place(const TextureLevels& texture, const TextureLevel& level, Float s, Float t) {
-    const TexelPosition column = bilinear_position(s, level.columns, texture.wrap_s),
-                        row = bilinear_position(t, level.rows, texture.wrap_t);
+    const TexelPosition column = bilinear_position(s, level.columns, texture.wrap_s);
+    const TexelPosition row = bilinear_position(t, level.rows, texture.wrap_t);
     words = texture.words + level.first;
     stride = level.stride;
     gathers_pairs = texture.gathers_pairs;
@@ -87,22 +91,22 @@ HWY_INLINE Texels bilinear_texels(const TextureLevels& texture, const TextureLev
   return texels.filtered();
 }
 
-/// Half of log2(m) / (m - 1) with 16 fraction bits, for m in [sqrt(1/2), sqrt(2)): a Remez fit, off by less
-/// than 1/65536 of a level.
+/// Polynomial in m - 1 for log2(m) / (2 (m - 1)) with 16 fraction bits, m in [sqrt(1/2), sqrt(2)): a Remez
+/// fit, off by less than 1/65536 of a level.
 inline constexpr float kLevelCoefficients[] = {5975.88720703125f, -12489.646484375f, 16273.4267578125f,
                                                -23630.955078125f, 47260.09375f};
 
-/// Level of detail with 16 fraction bits; 0 for magnified points; a whole number unless levels are blended
-/// [GL 2.1, 3.8.8].
+/// Level of detail with 16 fraction bits [GL 2.1, 3.8.8]: 0 for magnified points; a whole number unless
+/// levels are blended.
+/// @param footprint  squared texels per pixel; numbers that are not positive yield 0
 HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
-  // The footprint is squared. Numbers that are not positive give some finite level.
   const Int bits = hn::BitCast(kInt, footprint);
   Int level;
   if (texture.blends_levels) {
     // m 2^e with m in [sqrt(1/2), sqrt(2)).
     const Int exponent = hn::ShiftRight<23>(hn::Sub(bits, splat(kSqrtHalfBits)));
-    const Float m = hn::BitCast(kFloat, hn::Sub(bits, hn::ShiftLeft<23>(exponent))),
-                above_one = hn::Sub(m, splat(1.0f));
+    const Float m = hn::BitCast(kFloat, hn::Sub(bits, hn::ShiftLeft<23>(exponent)));
+    const Float above_one = hn::Sub(m, splat(1.0f));
     Float sum = splat(kLevelCoefficients[0]);
     for (int k = 1; k < 5; ++k) sum = mul_add(sum, above_one, splat(kLevelCoefficients[k]));
     level = hn::Add(truncate(hn::Mul(sum, above_one)), hn::ShiftLeft<15>(exponent));
@@ -116,7 +120,9 @@ HWY_INLINE Int level_of_detail(const TextureLevels& texture, Float footprint) {
                             within);
 }
 
-/// Chunks whose points all lie at one level, or between it and the next smaller one.
+/// Linearly filtered texels of chunks whose points all lie at `level`, or between it and the next smaller
+/// one.
+/// @param level_of  levels of detail; their whole part is `level`
 template <int kChunks>
 HWY_INLINE void mipmapped_linear_texels(const TextureLevels& texture, int level,
                                         const Int (&level_of)[kChunks], const Float (&s)[kChunks],
@@ -147,25 +153,26 @@ HWY_INLINE Texels mipmapped_nearest_texels(const TextureLevels& texture, int lev
              : larger;
 }
 
-/// One chunk whose points may have different levels: one pass per level, nearly always one or two.
+/// Texels of one chunk whose points may have different levels: one pass per level, nearly always one or two.
 inline HWY_NOINLINE Texels texels_from_levels(const TextureLevels& texture, Float s, Float t,
                                               Float footprint) {
   const auto minified = hn::RebindMask(kInt, hn::Gt(footprint, splat(texture.magnification_limit)));
-  // Magnified points use level 0 like others, unless their filter differs.
-  const bool apart = texture.mag_linear != texture.min_linear;
+  // Magnified points are points of level 0, unless their filter differs.
+  const bool filters_differ = texture.mag_linear != texture.min_linear;
   Texels all{hn::Zero(kInt), hn::Zero(kInt)};
-  if (apart && !hn::AllTrue(kInt, minified))
+  if (filters_differ && !hn::AllTrue(kInt, minified))
     all = texture.mag_linear ? bilinear_texels(texture, texture.level[0], s, t)
                              : nearest_texels(texture, texture.level[0], s, t);
-  const Int level_of = level_of_detail(texture, footprint), whole = hn::ShiftRight<16>(level_of);
+  const Int level_of = level_of_detail(texture, footprint);
+  const Int whole = hn::ShiftRight<16>(level_of);
   alignas(64) std::int32_t levels[kLanes];
   hn::Store(whole, kInt, levels);
-  for (std::uint32_t left = apart ? mask_bits(kInt, minified) : (1u << kLanes) - 1; left != 0;) {
+  for (std::uint32_t left = filters_differ ? mask_bits(kInt, minified) : (1u << kLanes) - 1; left != 0;) {
     const int level = levels[std::countr_zero(left)];
     const Texels here = texture.min_linear ? mipmapped_linear_texels(texture, level, level_of, s, t)
                                            : mipmapped_nearest_texels(texture, level, level_of, s, t);
     auto same = hn::Eq(whole, splat(level));
-    if (apart) same = hn::And(same, minified);
+    if (filters_differ) same = hn::And(same, minified);
     all = {hn::IfThenElse(same, here.br, all.br), hn::IfThenElse(same, here.ga, all.ga)};
     left &= ~mask_bits(kInt, same);
   }
@@ -175,7 +182,7 @@ inline HWY_NOINLINE Texels texels_from_levels(const TextureLevels& texture, Floa
 /// Filtered texels of several chunks. Each step runs for all chunks before the next, because the steps of one
 /// chunk depend on each other.
 /// @param s, t       coordinates before wrapping
-/// @param footprint  squared texels per pixel, if needed
+/// @param footprint  squared texels per pixel; unused if the filter does not need it
 template <TexelFilter kFilter, int kChunks>
 HWY_INLINE void texels_where(const TextureLevels& texture, Float (&s)[kChunks], Float (&t)[kChunks],
                              const Float (&footprint)[kChunks], Texels (&texels)[kChunks]) {
@@ -221,7 +228,8 @@ inline HWY_NOINLINE void sample_texture_lanes(const TextureLevels& texture, Shad
         const auto field = [&](int number) HWY_ATTR {
           return hn::Load(kFloat, batch.field[number] + first + chunk * kLanes);
         };
-        at_s[chunk] = field(kTextureS), at_t[chunk] = field(kTextureT),
+        at_s[chunk] = field(kTextureS);
+        at_t[chunk] = field(kTextureT);
         footprint[chunk] = field(kFootprintSquared);
       }
       Texels texels[kChunksPerBlock];
@@ -235,7 +243,8 @@ inline HWY_NOINLINE void sample_texture_lanes(const TextureLevels& texture, Shad
   });
 }
 
-/// Texels of one chunk. @pre sample_texture_lanes(), if the texture has levels
+/// Texels of the chunk of points from `point` on.
+/// @pre sample_texture_lanes() has run, if the texture has levels
 HWY_INLINE Colors texels_at(const DrawTexture& texture, const ShadingBatch& batch, int point) {
   Colors texel;
   for (int c = 0; c < 4; ++c)

@@ -5,20 +5,21 @@
 namespace tessera::detail {
 namespace {
 
-AccumulatedPixels from(const AccumulatedPixels& levels, int at) {
-  return {levels[0] + at, levels[1] + at, levels[2] + at, levels[3] + at};
+/// The levels of the pixels from `index` on.
+AccumulatedPixels levels_from(const AccumulatedPixels& levels, int index) {
+  return {levels[0] + index, levels[1] + index, levels[2] + index, levels[3] + index};
 }
 
-void give_back(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y, int tile_size,
-               std::uint32_t* color, const AccumulatedPixels& levels) {
+void return_colors(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y,
+                   int tile_size, std::uint32_t* color, const AccumulatedPixels& levels) {
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x) {
       const int at = tile_index(x, y, tile_size);
       const float threshold =
           command.dither.threshold[(tile_y + y) % kDitherSize][(tile_x + x) % kDitherSize];
-      const std::uint32_t word = command.arithmetic.packed_color(
+      const std::uint32_t packed = command.arithmetic.packed_color(
           {levels[0][at], levels[1][at], levels[2][at], levels[3][at]}, threshold);
-      color[at] = (color[at] & ~command.write_mask) | (word & command.write_mask);
+      color[at] = (color[at] & ~command.write_mask) | (packed & command.write_mask);
     }
 }
 
@@ -27,7 +28,7 @@ void give_back(const TileAccumulation& command, const PixelRect& rect, int tile_
 void accumulate_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y,
                      int tile_size, std::uint32_t* color, const AccumulatedPixels& levels) {
   if (command.arithmetic.op() == AccumOp::return_color)
-    return give_back(command, rect, tile_x, tile_y, tile_size, color, levels);
+    return return_colors(command, rect, tile_x, tile_y, tile_size, color, levels);
   if (rect == PixelRect{0, 0, tile_size, tile_size})
     return command.arithmetic.run(color, levels, tile_size * tile_size);
   // Pixels of a row that lie in one block are adjacent.
@@ -35,7 +36,7 @@ void accumulate_tile(const TileAccumulation& command, const PixelRect& rect, int
     for (int x = rect.x0, end = 0; x < rect.x1; x = end) {
       end = std::min(x / kBlockSize * kBlockSize + kBlockSize, rect.x1);
       const int at = tile_index(x, y, tile_size);
-      command.arithmetic.run(color + at, from(levels, at), end - x);
+      command.arithmetic.run(color + at, levels_from(levels, at), end - x);
     }
 }
 

@@ -14,13 +14,13 @@ struct TileAccumulation {
   std::uint32_t before_draw = 0, after_clears = 0;
   PixelRect rect;  ///< raster space
   Accumulation arithmetic;
-  std::uint32_t write_mask = 0xffffffffu;  ///< return_color: bits of the packed color that change
-  FragmentOps dither;                      ///< return_color: its thresholds
+  std::uint32_t write_mask = 0xffffffffu;  ///< return_color: bits of the packed colour that change
+  FragmentOps dither;                      ///< return_color: only its thresholds are used
 };
 
-/// @param rect    the pixels, tile-relative
+/// Runs the operation on the pixels of `rect`, tile-relative.
 /// @param tile_x, tile_y  the tile's top left pixel, raster space
-/// @param color, levels   the tile's, in tile order
+/// @param color, levels   packed colours and accumulated levels of the tile, in tile order
 void accumulate_tile(const TileAccumulation& command, const PixelRect& rect, int tile_x, int tile_y,
                      int tile_size, std::uint32_t* color, const AccumulatedPixels& levels);
 

@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE {
 /// Fills the pixels of `rect`, tile-relative.
 template <class Word>
 void fill_rect(Word* pixels, Word word, const PixelRect& rect, int tile_size) {
-  if (rect.x0 == 0 && rect.y0 == 0 && rect.x1 == tile_size && rect.y1 == tile_size) {
+  if (rect == PixelRect{0, 0, tile_size, tile_size}) {
     std::fill_n(pixels, tile_size * tile_size, word);
     return;
   }
@@ -29,8 +29,8 @@ void fill_rect(Word* pixels, Word word, const PixelRect& rect, int tile_size) {
     for (int x = rect.x0; x < rect.x1; ++x) pixels[tile_index(x, y, tile_size)] = word;
 }
 
-/// The part of a rectangle in the tile, tile-relative. If the rectangle reaches the frame buffer's right or
-/// bottom edge it extends to the tile's, so that whole tiles stay whole.
+/// The part of a rectangle in the tile, tile-relative. A rectangle that reaches the right or bottom edge of
+/// the frame buffer is extended to that of the tile, so that whole tiles are recognized.
 inline PixelRect rect_in_tile(const PixelRect& rect, const TileGrid& grid, int tile_x, int tile_y) {
   const int right = rect.x1 == grid.width_px ? tile_x + grid.tile_size : rect.x1;
   const int bottom = rect.y1 == grid.height_px ? tile_y + grid.tile_size : rect.y1;
@@ -44,9 +44,12 @@ inline void clear_pixels(const TileContext& context, const TileAttachments& pixe
   if (clear.color && !clear.dithered) fill_rect(pixels.color, clear.packed_color, rect, context.tile_size);
   if (clear.color && clear.dithered) {
     for (int y = rect.y0; y < rect.y1; ++y)
-      for (int x = rect.x0; x < rect.x1; ++x)
-        pixels.color[tile_index(x, y, context.tile_size)] = clear.pattern[static_cast<std::size_t>(
-            (context.tile_y + y) % kDitherSize * kDitherSize + (context.tile_x + x) % kDitherSize)];
+      for (int x = rect.x0; x < rect.x1; ++x) {
+        const int row = (context.tile_y + y) % kDitherSize;
+        const int column = (context.tile_x + x) % kDitherSize;
+        pixels.color[tile_index(x, y, context.tile_size)] =
+            clear.pattern[static_cast<std::size_t>(row * kDitherSize + column)];
+      }
   }
   if (clear.depth) fill_rect(pixels.depth, clear.depth_key, rect, context.tile_size);
   if (clear.stencil) fill_rect(pixels.stencil, clear.stencil_value, rect, context.tile_size);
@@ -56,9 +59,10 @@ inline HWY_NOINLINE void run_clear(TileContext& context, const TileClear& clear)
   shade_whole_tile(context);
   const PixelRect rect = rect_in_tile(clear.rect, context.frame.grid, context.tile_x, context.tile_y);
   for (int s = 0; s < context.samples; ++s) clear_pixels(context, context.sample[s], clear, rect);
-  if (context.samples > 1 && clear.depth)
-    reset_hiz(context,
-              rect == PixelRect{0, 0, context.tile_size, context.tile_size} ? clear.depth_key : kMaxDepthKey);
+  if (context.samples > 1 && clear.depth) {
+    const bool is_whole_tile = rect == PixelRect{0, 0, context.tile_size, context.tile_size};
+    reset_hiz(context, is_whole_tile ? clear.depth_key : kMaxDepthKey);
+  }
   if (clear.accumulation)
     for (std::size_t c = 0; c < 4; ++c)
       fill_rect(context.memory.accumulation->component[c], clear.accumulation_levels[c], rect,

@@ -23,20 +23,20 @@ struct TileContext {
   const TileFrame& frame;
   TileWorkspace::Memory& memory;
   std::uint32_t* const color;     // memory.color as a constant, so that stores cannot change it
-  int tile_x, tile_y, tile_size;  // pixels
+  int tile_x, tile_y, tile_size;  // pixels, raster space
   PixelRect rect;                 // where the current draw may change pixels, tile-relative
   bool needs_scissor = false;     // the edges of `rect` cut through blocks
   TileCounts counts;
   int samples = 1;
-  TileAttachments sample[kMaxSamples];
+  TileAttachments sample[kMaxSamples];  // with one sample: the attachments of the tile
 
   HWY_INLINE int block_index(int bx, int by) const {
     return ((by >> 2) * (tile_size >> 2) + (bx >> 2)) * kBlockPixels;
   }
   HWY_INLINE int pixel_index(int x, int y) const { return block_index(x, y) + (y & 3) * 4 + (x & 3); }
   HWY_INLINE Int pixel_indices(Int x, Int y) const {
-    const Int block = hn::Add(hn::Mul(hn::ShiftRight<2>(y), splat(tile_size >> 2)), hn::ShiftRight<2>(x)),
-              three = splat(3);
+    const Int block = hn::Add(hn::Mul(hn::ShiftRight<2>(y), splat(tile_size >> 2)), hn::ShiftRight<2>(x));
+    const Int three = splat(3);
     return hn::Add(hn::ShiftLeft<4>(block), hn::Add(hn::ShiftLeft<2>(hn::And(y, three)), hn::And(x, three)));
   }
 };
@@ -51,6 +51,7 @@ HWY_INLINE std::uint64_t count_of(Int negative) {
 }
 
 inline constexpr std::int32_t kMaxDepthKey = std::numeric_limits<std::int32_t>::max();
+
 /// Sets hierarchical z of all blocks. @pre several samples
 HWY_INLINE void reset_hiz(TileContext& context, std::int32_t key) {
   std::fill_n(context.memory.samples->hiz_max, context.tile_size * context.tile_size / kBlockPixels, key);
@@ -58,20 +59,22 @@ HWY_INLINE void reset_hiz(TileContext& context, std::int32_t key) {
 
 /// Lanes of a chunk inside the rectangle.
 HWY_INLINE auto scissor_mask(const PixelRect& rect, int bx, int by, int chunk) {
-  const Int x = hn::Add(splat(bx), block_columns(chunk)), y = hn::Add(splat(by), block_rows(chunk));
+  const Int x = hn::Add(splat(bx), block_columns(chunk));
+  const Int y = hn::Add(splat(by), block_rows(chunk));
   return hn::And(hn::And(hn::Gt(x, splat(rect.x0 - 1)), hn::Gt(splat(rect.x1), x)),
                  hn::And(hn::Gt(y, splat(rect.y0 - 1)), hn::Gt(splat(rect.y1), y)));
 }
 
-/// Writes the bits of `writable` in the lanes of `mask`.
+/// Stores packed colours: the bits of `writable` in the lanes of `mask`.
 template <class Mask>
 HWY_INLINE void store_packed(std::uint32_t* color, Int packed, Mask mask, Int writable) {
   auto* target = reinterpret_cast<std::int32_t*>(color);
-  const Int stored = hn::Load(kInt, target), changed = hn::And(hn::VecFromMask(kInt, mask), writable);
+  const Int stored = hn::Load(kInt, target);
+  const Int changed = hn::And(hn::VecFromMask(kInt, mask), writable);
   hn::Store(hn::Xor(stored, hn::And(hn::Xor(stored, packed), changed)), kInt, target);
 }
 
-/// Stores the lanes of `mask` alone.
+/// Stores the lanes of `mask`; other elements are unchanged.
 template <class Tag, class Mask>
 HWY_INLINE void store_where(Mask mask, hn::Vec<Tag> value, Tag tag, hn::TFromD<Tag>* to) {
 #if HWY_TARGET == HWY_AVX3

@@ -1,5 +1,5 @@
-// Renders one tile: the primitives of its bins in order -> coverage -> depth -> color, in tile memory, on the
-// calling thread.
+// Renders one tile: the primitives of its bins in order -> coverage -> depth -> colour, in tile memory, on
+// the calling thread.
 #pragma once
 
 #include <array>
@@ -22,12 +22,12 @@
 
 namespace tessera::detail {
 
-/// Source of the colors of a draw's pixels.
+/// Source of the colours of a draw's pixels.
 enum class ColorSource : std::uint8_t {
-  none,                 ///< no color plane changes
-  constant,             ///< one color for the draw
-  per_vertex_packed,    ///< flat: the packed color of the provoking vertex
-  per_triangle_packed,  ///< flat: the packed color of the triangle
+  none,                 ///< no colour plane changes
+  constant,             ///< one colour for the draw
+  per_vertex_packed,    ///< flat: the packed colour of the provoking vertex
+  per_triangle_packed,  ///< flat: the packed colour of the triangle
   interpolated,         ///< colours interpolated from the vertices (Gouraud)
   per_pixel,            ///< lit at each pixel (Phong)
   texels                ///< the texels of an image
@@ -35,7 +35,7 @@ enum class ColorSource : std::uint8_t {
 
 /// A draw as tiles see it. Pointers refer to memory of the frame.
 struct TileDraw {
-  PixelPath path;  ///< choose_pixel_path() of what follows
+  PixelPath path;  ///< choose_pixel_path() for the other fields
 
   Topology topology = Topology::triangles;
   const WindowVertex* vertices = nullptr;
@@ -43,28 +43,29 @@ struct TileDraw {
   /// attribute_stride floats per vertex; kAttributePadding floats after the last one are readable.
   const float* attributes = nullptr;
   int attribute_stride = 0;
-  int attribute_count = 0;  ///< inputs of lighting, or colors
-  int provoking = 2;        ///< corner of the element whose vertex gives flat colors
+  int attribute_count = 0;  ///< number of inputs of lighting, or of colour components
+  int provoking = 2;        ///< corner of the element whose vertex has the flat colour
   int element_corners = 3;  ///< corners per element of the mesh: 3 also for edges and corners of polygons
   float size = 1;           ///< points: diameter, lines: width; pixels
-  PixelRect rect;           ///< scissor, viewport and frame buffer, raster space
+  PixelRect rect;           ///< intersection of scissor, viewport and frame buffer, raster space
   bool front_is_clockwise = false;
   /// Per triangle: the facing of its polygon; null: the sign of the triangle's area decides.
   const Facing* facing = nullptr;
   std::uint32_t primitive_triangles = 1;  ///< triangles per primitive of the mesh
 
-  bool uses_depth = false, depth_write = true;
+  bool uses_depth = false;
+  bool depth_write = true;
   Compare depth_test = Compare::less;
 
   ColorSource source = ColorSource::constant;
-  std::uint32_t write_mask = 0xffffffffu;      ///< bits of the packed color that change
+  std::uint32_t write_mask = 0xffffffffu;      ///< bits of the packed colour that change
   std::uint32_t packed_color = 0;              ///< constant
   const std::uint32_t* packed_colors[2] = {};  ///< per_vertex_packed, per_triangle_packed; per face
-  /// interpolated, per face: attribute of r, or of the index; the next two are g and b. In levels, with the
-  /// half that rounds, if scaled_colors; else 0..1.
+  /// interpolated, per face: attribute of r, or of the index; the next two are g and b.
   int color_attribute[2] = {0, 0};
+  /// interpolated: attributes are levels plus 1/2, so that truncation rounds; false: 0..1.
   bool scaled_colors = true;
-  bool index[2] = {};  ///< per face: the color is one float, a masked index
+  bool index[2] = {};  ///< per face: the colour is one float, a masked index
   /// Shade each visible pixel once. @pre set without `ops` if pixels have several samples, for per_pixel, and
   /// for interpolated under a mask
   bool deferred = false;
@@ -72,17 +73,17 @@ struct TileDraw {
   const LightingProgram* programs[2] = {};
   int first_attribute = 0;
   std::uint8_t fields[kMaxAttributes] = {};
-  /// Null: none. @pre with one, `deferred` or `ops` is set, and colors are neither in levels nor packed
+  /// Null: none. @pre with a texture, `deferred` or `ops` is set, and colours are neither scaled nor packed
   const DrawTexture* texture = nullptr;
-  bool captures_normals = false;  ///< per_pixel: normals go to the workspace's normals(), too
+  bool captures_normals = false;  ///< per_pixel: normals are also stored in the workspace's normals()
 
   /// Fragment operations besides the depth test; null: none, and most of the fields below are ignored.
   const FragmentOps* ops = nullptr;
-  /// Colors are what they would be without `ops`. @pre `ops` are a stencil test alone, of untextured
+  /// Colours are computed as without `ops`. @pre `ops` has a stencil test only, and the draw has untextured
   /// triangles with one sample and without offset
   bool plain_colors = false;
-  bool flat = false;  ///< interpolated: but one color per triangle, its own or its provoking vertex's
-  /// flat, per face: r g b a, or an index, per triangle; null: the provoking vertex's.
+  bool flat = false;  ///< interpolated: one colour per triangle, from face_colors or its provoking vertex
+  /// flat, per face: r g b a, or an index, per triangle; null: those of the provoking vertex.
   const float* face_colors[2] = {};
   std::array<float, 4> color[2] = {};         ///< constant, also under a texture; per face
   int alpha_attribute[2] = {-1, -1};          ///< interpolated alpha, per face; -1: `alpha`
@@ -91,25 +92,25 @@ struct TileDraw {
   /// Depth offset of each triangle's polygon (raster/polygon_offset.h); null, or NaN for a triangle: computed
   /// from the triangle.
   const double* depth_offsets = nullptr;
-  enum class IdOutput : std::uint8_t {
-    none,
-    draw,
-    primitive
-  } id_output = IdOutput::none;  ///< for captures: colors are `packed_color`, or the primitive's number
+  /// For captures: pixels get `packed_color`, or the number of the primitive.
+  enum class IdOutput : std::uint8_t { none, draw, primitive };
+  IdOutput id_output = IdOutput::none;
 
   /// A bitmap or an image in place of triangles. @pre not deferred, without offset
   const PixelRectangle* texels = nullptr;
   std::int32_t depth_key = 0;  ///< depth of its pixels
 };
 
-/// A clear inside a frame, in stored values; runs before draw `before_draw`.
+/// A clear inside a frame, with stored values.
 struct TileClear {
-  std::uint32_t before_draw = 0;
+  std::uint32_t before_draw = 0;  ///< runs before this draw
   bool color = false, depth = false, stencil = false, accumulation = false;
   std::uint32_t packed_color = 0;
-  bool dithered = false;                                         ///< `pattern` replaces packed_color
-  std::array<std::uint32_t, kDitherSize * kDitherSize> pattern;  ///< by raster row and column, repeated
-  std::int32_t depth_key = 0, stencil_value = 0;
+  bool dithered = false;  ///< `pattern` replaces packed_color
+  /// Packed colours by raster row and column modulo kDitherSize.
+  std::array<std::uint32_t, kDitherSize * kDitherSize> pattern;
+  std::int32_t depth_key = 0;
+  std::int32_t stencil_value = 0;
   AccumulatedPixel accumulation_levels{};
   PixelRect rect;
 };
@@ -130,14 +131,14 @@ struct TileFrame {
   /// Shade after each triangle; with several samples, after each group of them.
   bool shade_immediately = false;
   int samples = 1;  ///< coverage samples per pixel: 1, 4 or 8
-  /// Samples start from the buffer's contents in the workspace. If not set, a command overwrites all of the
+  /// Samples start with the buffer's contents in the workspace. If not set, a command overwrites the whole
   /// buffer before it is read.
   bool loads_color = false, loads_depth = false, loads_stencil = false;
 };
 
 PixelPathFrame pixel_path_frame(const TileFrame& frame, InstructionSet isa);
 
-/// The color 0..1, packed to the frame's layout; alpha only if the layout stores it.
+/// Packs a colour 0..1 in the frame's layout; alpha only if the layout stores it.
 std::uint32_t pack_color_or_index(const ColorLayout& layout, const PaletteSearch* search, float r, float g,
                                   float b, float a = 1);
 
@@ -154,15 +155,15 @@ class TileWorkspace {
   TileWorkspace(TileWorkspace&&) noexcept;
   struct Memory;
   Memory& memory() { return *memory_; }
-  /// tile_size^2 packed colors of the selected tile, in tile order. Tile 0 is selected at first.
+  /// tile_size^2 packed colours of the selected tile, in tile order. Tile 0 is selected at first.
   std::uint32_t* color();
-  /// Selects the colors of a tile for rendering; those of other tiles are kept. @pre allocate_colors(),
-  /// except for tile 0
+  /// Selects the colours of a tile for rendering. Those of other tiles are kept.
+  /// @pre allocate_colors() has run, unless `tile` is 0
   std::uint32_t* select_color(std::size_t tile);
   std::int32_t* depth();    ///< depth keys
   std::int32_t* stencil();  ///< stencil values. @pre allocate_stencil()
-  /// Packed colors of one sample of the last tile, in tile order. @pre several samples, and the tile had
-  /// triangles
+  /// Packed colours of one sample of the last tile, in tile order.
+  /// @pre several samples, and the tile had triangles
   const std::uint32_t* sample_color(int sample) const;
   AccumulatedPixels accumulation();  ///< levels, in tile order. @pre allocate_accumulation()
   /// Normals of pixels of draws that capture them, in tile order. @pre allocate_normals()
@@ -179,10 +180,9 @@ class TileWorkspace {
 };
 
 /// Runs the frame's commands on one tile.
-/// - @pre the workspace holds the previous contents of buffers that are read before a command overwrites
-/// them.
-/// - With several samples the workspace's color is their mean afterwards, its depth and stencil those of
-/// sample 0.
+/// - With several samples the workspace's colours are afterwards the means of the samples, and its depths and
+///   stencil values those of sample 0.
+/// @pre the workspace holds the contents of all buffers that are read before a command overwrites them
 using RenderTile = TileCounts(const TileFrame& frame, int tile, TileWorkspace& workspace);
 RenderTile* render_tile(InstructionSet isa);
 

@@ -14,9 +14,9 @@
 namespace tessera::detail {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
-/// Maximum number of triangles that a tile collects before it shades them. Bounds memory; changes no bit.
+/// Number of visible triangles after which a tile is shaded. Bounds memory; the pixels do not depend on it.
 inline constexpr std::size_t kMaxVisibleTriangles = 1024;
-/// The limit is checked after each group.
+/// The number is checked after each group.
 inline constexpr std::size_t kVisibleTriangleCapacity = kMaxVisibleTriangles + kGroupSize;
 
 struct alignas(64) TileNormals {
@@ -27,11 +27,11 @@ struct alignas(64) TileStencil {
   std::int32_t value[kMaxTileSize * kMaxTileSize];
 };
 
-/// Pixels that draws work on: the tile's, or those of one sample.
+/// Buffers that draws work on: those of the tile, or of one sample.
 struct TileAttachments {
   std::uint32_t* color;
   std::int32_t* depth;
-  std::uint32_t* visibility;  ///< visibility buffer: triangles not shaded yet; kNoTriangle elsewhere
+  std::uint32_t* visibility;  ///< visibility buffer: numbers of triangles, or kNoTriangle
   std::int32_t* stencil;      ///< null if the frame has none
 };
 
@@ -43,7 +43,7 @@ struct alignas(64) TileSamples {
   std::int32_t depth[kMaxSamples][kStride];
   std::uint32_t visibility[kMaxSamples][kStride];
   std::int32_t stencil[kMaxSamples][kStride];
-  /// The group, moved by the opposite of each sample's offset: for wide triangles and draws with operations.
+  /// The group, moved by the opposite of each sample's offset. For wide triangles and fragment operations.
   TriangleGroup group[kMaxSamples];
   SampleGroup samples32;
   /// Hierarchical z, per block: upper bound of the samples' depth keys.
@@ -59,7 +59,7 @@ struct alignas(64) TileLevels {
   std::int32_t component[4][kMaxTileSize * kMaxTileSize];
 };
 
-/// Blocks that a point or line touches. All zero between two elements.
+/// Blocks that a point or line touches. Empty between two elements.
 struct TouchedBlocks {
   static constexpr int kBlocks = kMaxTileSize * kMaxTileSize / kBlockPixels;
   int count = 0;
@@ -68,7 +68,7 @@ struct TouchedBlocks {
   std::uint16_t bits[kMaxSamples][kBlocks] = {};  ///< covered pixels
 };
 
-/// A pixel after those of the tile. Kernels redirect masked stores to it.
+/// A pixel after those of the tile. Kernels write pixels to it that must not change.
 inline constexpr int kDiscardPixel = kMaxTileSize * kMaxTileSize;
 
 struct alignas(64) TileColors {
@@ -83,11 +83,11 @@ struct alignas(64) TileWorkspace::Memory {
   std::vector<ShadedTriangle> visible_triangles;
   std::vector<Edges64> edges64;
   TriangleGroup group;
-  // Per triangle of the group.
+  // Per triangle of the group: attributes of its vertices, and its number in the draw.
   const float* attributes[3][kGroupSize];
   std::uint32_t source[kGroupSize];
   ShadingBatch batch;
-  // Per collected triangle, while they are shaded.
+  // Per visible triangle, while they are shaded.
   TriangleInterpolants interpolants[kVisibleTriangleCapacity];
   std::int32_t surfaces[kVisibleTriangleCapacity];
   TouchedBlocks touched;

@@ -1,4 +1,4 @@
-// Pixels of one triangle: coverage, stencil, depth, and the color or the visibility buffer.
+// Pixels of one triangle: coverage, stencil, depth, and the colour or the visibility buffer.
 #if defined(TESSERA_SHADING_TRIANGLE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_SHADING_TRIANGLE_PIXELS_INL_H_
 #undef TESSERA_SHADING_TRIANGLE_PIXELS_INL_H_
@@ -20,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
-/// Evaluator of interpolated colors.
+/// Evaluator of interpolated colours.
 template <ColorWrite kColorWrite>
 struct ColorEvalFor {
   using Type = GouraudColorEval;
@@ -32,31 +32,33 @@ struct ColorEvalFor<ColorWrite::blended> {
 
 /// Stencil test of single pixels of one face.
 struct PixelStencil {
-  StencilTestConstants steps{};
-  std::int32_t* values = nullptr;
+  StencilTestConstants constants{};
+  std::int32_t* values = nullptr;  // stencil values of the tile
 
-  /// Returns whether the pixel passes. Stores the result of a failure.
+  /// Returns whether the pixel passes. Applies the action for failure.
   HWY_INLINE bool passes(int index) const {
-    const bool does = steps.passes(values[index]);
-    if (!does) store(index, steps.fail);
-    return does;
+    const bool passed = constants.passes(values[index]);
+    if (!passed) apply(index, constants.fail);
+    return passed;
   }
+  /// Applies the action for a pixel that passed.
   HWY_INLINE void store_after_depth(int index, bool depth_passes) const {
-    store(index, depth_passes ? steps.zpass : steps.zfail);
+    apply(index, depth_passes ? constants.zpass : constants.zfail);
   }
 
  private:
-  HWY_INLINE void store(int index, const StencilOpConstants& step) const {
+  HWY_INLINE void apply(int index, const StencilOpConstants& op) const {
     std::int32_t& stored = values[index];
-    stored = (stored & ~steps.write_mask) | (step(stored) & steps.write_mask);
+    stored = (stored & ~constants.write_mask) | (op(stored) & constants.write_mask);
   }
 };
+
 template <DepthTestPath kDepthTest>
 HWY_INLINE bool has_stencil_test(const TileDraw& draw) {
   return kDepthTest == DepthTestPath::generic && draw.ops != nullptr && draw.ops->stencil;
 }
 HWY_INLINE PixelStencil pixel_stencil(const TileContext& context, const TileDraw& draw, bool back) {
-  return {.steps = stencil_test_constants(draw.ops->faces[back ? 1 : 0], draw.ops->stencil_max),
+  return {.constants = stencil_test_constants(draw.ops->faces[back ? 1 : 0], draw.ops->stencil_max),
           .values = context.sample[0].stencil};
 }
 
@@ -77,17 +79,18 @@ struct TrianglePixels {
   PixelStencil stencil{};
   std::uint32_t visible_pixels = 0;  // unless deferred
   Int visible = hn::Zero(kInt);      // deferred: nonzero lanes have a visible pixel
-  Int writable, depth_writable;      // masks, to avoid branches
+  Int writable;                      // bits of packed colours that change
+  Int depth_writable;                // -1 or 0: a mask avoids a branch
   const bool needs_scissor;          // the draw's rectangle cuts through blocks
   const bool writes_all_planes;
   const bool stores_full;  // full blocks are stored without tests or masks
 
-  HWY_INLINE TrianglePixels(TileContext& tile_context, const TileDraw& tile_draw, const Edges32& tile_edges_,
-                            const ShadedTriangle& shaded, bool back)
+  HWY_INLINE TrianglePixels(TileContext& tile_context, const TileDraw& tile_draw,
+                            const Edges32& edges_in_tile, const ShadedTriangle& shaded, bool back)
       : context(tile_context),
         draw(tile_draw),
-        edges(tile_edges_),
-        offsets(tile_edges_),
+        edges(edges_in_tile),
+        offsets(edges_in_tile),
         triangle(shaded),
         tests_stencil(has_stencil_test<kDepthTest>(tile_draw)),
         writable(splat(static_cast<std::int32_t>(tile_draw.write_mask))),
@@ -101,11 +104,11 @@ struct TrianglePixels {
   /// A partly covered block.
   template <bool kFull>
   HWY_INLINE void operator()(int bx, int by, const BlockEdges& block_edges) {
-    static_assert(!kFull);  // those come by rows
+    static_assert(!kFull);  // full blocks are drawn by full_row()
     if constexpr (kColorWrite == ColorWrite::blended) rare_block(bx, by, block_edges);
     else draw_chunks<false>(bx, by, context.block_index(bx, by), depth.block(bx, by), block_edges);
   }
-  /// Not inlined: the code is long and such blocks are few.
+  /// A partly covered block of a blended triangle. Not inlined: the code is long and such blocks are few.
   HWY_NOINLINE void rare_block(int bx, int by, const BlockEdges& block_edges) {
     draw_chunks<false>(bx, by, context.block_index(bx, by), depth.block(bx, by), block_edges);
   }
@@ -129,18 +132,20 @@ struct TrianglePixels {
       depth.step_right(block_depth);
     }
   }
-  // full_row() without tests and masks: one packed color, and evaluated colors.
+  /// full_row() without tests and masks, for one packed colour.
   HWY_INLINE void fill_blocks(int index, int count) const {
     auto* const first = reinterpret_cast<std::int32_t*>(context.color + index);
     for (int i = 0; i < kBlockPixels * count; i += kLanes) hn::Store(splat(packed_color), kInt, first + i);
   }
+  /// full_row() without tests and masks, for interpolated colours.
   HWY_INLINE void store_row(int bx, int by, int index, int count, RowEdges& row_edges) {
     auto* stored_at = reinterpret_cast<std::int32_t*>(context.color + index);
     for (const int end = bx + 4 * count; bx < end; bx += 4, row_edges.step_right())
       for (int chunk = 0; chunk < kChunksPerBlock; ++chunk, stored_at += kLanes)
         hn::Store(packed_at(row_edges, bx, by, chunk, stored_at), kInt, stored_at);
   }
-  /// @param block  its index
+  /// Draws a block.
+  /// @param block  the block's first pixel in the tile
   template <bool kFull, class Edges>
   HWY_INLINE void draw_chunks(int bx, int by, int block,
                               [[maybe_unused]] const typename Depth::Block& block_depth,
@@ -151,16 +156,18 @@ struct TrianglePixels {
       if constexpr (!kFull) mask = block_edges.covered(chunk);
       if (needs_scissor) mask = hn::And(mask, scissor_mask(context.rect, bx, by, chunk));
       [[maybe_unused]] Int stencil_before = hn::Zero(kInt);
-      [[maybe_unused]] LaneMask failed = no_lanes(), passed = mask;
+      [[maybe_unused]] LaneMask failed = no_lanes();
+      [[maybe_unused]] LaneMask passed = mask;
       if (kMayTestStencil && tests_stencil) {
         stencil_before = hn::Load(kInt, stencil.values + index);
-        passed = hn::And(mask, stencil_passes(stencil.steps, stencil_before));
+        passed = hn::And(mask, stencil_passes(stencil.constants, stencil_before));
         failed = hn::AndNot(passed, mask);
         mask = passed;
       }
       if constexpr (kHasDepth<Depth>) {
         std::int32_t* stored_at = context.memory.depth + index;
-        const Int stored = hn::Load(kInt, stored_at), key = depth.keys(block_depth, chunk);
+        const Int stored = hn::Load(kInt, stored_at);
+        const Int key = depth.keys(block_depth, chunk);
         if constexpr (kDepthTest == DepthTestPath::less_write) {
           mask = hn::And(mask, hn::Lt(key, stored));
           hn::Store(hn::IfThenElse(mask, key, stored), kInt, stored_at);
@@ -170,10 +177,12 @@ struct TrianglePixels {
                     stored_at);
         }
       }
-      if (kMayTestStencil && tests_stencil && stencil.steps.writes())
-        hn::Store(stencil_result(stencil.steps, stencil_before, failed, hn::AndNot(mask, passed), mask), kInt,
-                  stencil.values + index);
-      // Cheap colors are stored without testing for an empty mask: that branch would be mispredicted.
+      if (kMayTestStencil && tests_stencil && stencil.constants.writes()) {
+        const LaneMask zfailed = hn::AndNot(mask, passed);
+        const Int after = stencil_result(stencil.constants, stencil_before, failed, zfailed, mask);
+        hn::Store(after, kInt, stencil.values + index);
+      }
+      // Constant colours are stored without testing for an empty mask: that branch would be mispredicted.
       if constexpr (kColorWrite == ColorWrite::deferred) {
         auto* visibility = reinterpret_cast<std::int32_t*>(context.memory.visibility) + index;
         hn::Store(hn::IfThenElse(mask, splat(id), hn::Load(kInt, visibility)), kInt, visibility);
@@ -185,12 +194,13 @@ struct TrianglePixels {
         std::uint32_t* const stored_at = context.color + index;
         const Int packed =
             packed_at(block_edges, bx, by, chunk, reinterpret_cast<const std::int32_t*>(stored_at));
-        kFull&& writes_all_planes ? store_packed_all_bits(stored_at, packed, mask)
-                                  : store_packed(stored_at, packed, mask, writable);
+        if (kFull && writes_all_planes) store_packed_all_bits(stored_at, packed, mask);
+        else store_packed(stored_at, packed, mask, writable);
       }
     }
   }
-  /// @param stored_at  packed colors in the frame buffer, for blending
+  /// Packed colours of one chunk.
+  /// @param stored_at  packed colours of the chunk in the tile, for blending
   template <class Edges>
   HWY_INLINE Int packed_at([[maybe_unused]] const Edges& block_edges, [[maybe_unused]] int bx,
                            [[maybe_unused]] int by, [[maybe_unused]] int chunk,
@@ -217,7 +227,8 @@ struct TrianglePixels {
     const bool is_tested = kMayTestStencil && tests_stencil;
     if (is_tested && !stencil.passes(index)) return;
     if constexpr (kHasDepth<Depth>) {
-      const std::int32_t key = depth.key(x, y), stored = context.memory.depth[index];
+      const std::int32_t key = depth.key(x, y);
+      const std::int32_t stored = context.memory.depth[index];
       const bool passes =
           kDepthTest == DepthTestPath::less_write ? key < stored : compares(key, draw.depth_test, stored);
       if (is_tested) stencil.store_after_depth(index, passes);
@@ -238,14 +249,13 @@ struct TrianglePixels {
 
   /// color.packed() of a single pixel, with the same bits.
   HWY_INLINE std::uint32_t packed_pixel_at(int x, int y, [[maybe_unused]] std::uint32_t stored) const {
-    // Interpolated colors of small triangles are evaluated in SmallTrianglePixels.
+    // Interpolated colours of small triangles are evaluated in SmallTrianglePixels.
     if constexpr (kColorWrite != ColorWrite::blended) {
       return static_cast<std::uint32_t>(packed_color);
     } else {
       float w[3];
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < 3; ++k)
         w[k] = std::fma(static_cast<float>(triangle.edges.at(k, x, y)), triangle.scale[k], triangle.shift[k]);
-      }
       const float inverse = triangle.affine ? 1.0f : 1.0f / (w[0] + w[1] + w[2]);
       const float b1 = w[1] * inverse, b2 = w[2] * inverse;
       return color.packed_pixel(b1, b2, stored);

@@ -10,7 +10,7 @@ struct SineCosine {
   double sine, cosine;
 };
 
-/// Any finite angle; multiples of 90 are exact.
+/// Takes any finite angle. Exact for multiples of 90.
 inline SineCosine sine_cosine(double degrees) {
   const double turn = std::remainder(degrees, 360.0);  // exact
   const double quarter = std::floor(turn / 90.0 + 0.5);

@@ -24,16 +24,17 @@ void pack_vertex_colors_lanes(const ColorLayout& layout, const ShadingBatch& bat
 }
 
 void scale_colors_lanes(const ColorLayout& layout, ShadingBatch& batch, int count) {
-  constexpr float kHair = 0x1p-12f;
+  constexpr float kMargin = 0x1p-12f;  // distance from whole numbers
   const int bits[3] = {layout.r_bits, layout.g_bits, layout.b_bits};
   for (int c = 0; c < 3; ++c) {
     const Float levels = splat(static_cast<float>((1 << bits[c]) - 1));
     for (int first = 0; first < count; first += kLanes) {
       float* const color = batch.field[kColorR + c] + first;
-      const Float scaled = mul_add(hn::Load(kFloat, color), levels, splat(0.5f)),
-                  whole = hn::ConvertTo(kFloat, truncate(scaled));
-      hn::Store(hn::Min(hn::Max(scaled, hn::Add(whole, splat(kHair))), hn::Add(whole, splat(1 - kHair))),
-                kFloat, color);
+      const Float scaled = mul_add(hn::Load(kFloat, color), levels, splat(0.5f));
+      const Float level = hn::ConvertTo(kFloat, truncate(scaled));
+      const Float low = hn::Add(level, splat(kMargin));
+      const Float high = hn::Add(level, splat(1 - kMargin));
+      hn::Store(hn::Min(hn::Max(scaled, low), high), kFloat, color);
     }
   }
 }

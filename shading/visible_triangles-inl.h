@@ -51,8 +51,8 @@ HWY_INLINE void for_each_triangle(std::uint32_t triangles, const Body& body) {
 }
 
 /// Calls body(i, edges) for the triangles that touch the tile, in order.
-/// @param triangles  of the group, one bit each
-/// @param shortcut   shortcut(i) returns true if it has drawn triangle i without its edges
+/// @param triangles  triangles of the group, one bit each
+/// @param shortcut   returns true for triangle i if it has drawn it without its edges
 template <class Shortcut, class Body>
 HWY_INLINE void for_each_visible_triangle(const TileContext& context, std::uint32_t triangles,
                                           const Shortcut& shortcut, const Body& body) {
@@ -69,7 +69,7 @@ HWY_INLINE void for_each_visible_triangle(const TileContext& context, std::uint3
       context, triangles, [](int) TESSERA_LOOP_BODY { return false; }, body);
 }
 
-/// Fills `t` for triangle i of the group, but for the edges of a wide one.
+/// Fills `t` for triangle i of the group, except the edges of a wide triangle.
 inline HWY_NOINLINE void fill_shaded_triangle(ShadedTriangle& t, const TileContext& context,
                                               std::uint32_t draw, int i, bool back) {
   const TriangleGroup& g = context.memory.group;
@@ -90,7 +90,7 @@ HWY_INLINE void store_edges64(ShadedTriangle& triangle, TileWorkspace::Memory& m
   memory.edges64.push_back(edges);
 }
 
-/// Fills `t` for triangle i of the group; the edges of a wide one go to the workspace.
+/// Fills `t` for triangle i of the group, and stores the edges of a wide triangle in the workspace.
 HWY_INLINE void fill_shaded_triangle(ShadedTriangle& t, TileContext& context, std::uint32_t draw, int i,
                                      bool back, const TileEdges& edges) {
   fill_shaded_triangle(t, context, draw, i, back);

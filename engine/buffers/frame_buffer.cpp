@@ -21,10 +21,12 @@ using namespace detail;
 namespace detail {
 
 std::string_view name(Buffer buffer) {
-  return buffer == Buffer::color     ? "colour"
-         : buffer == Buffer::depth   ? "depth"
-         : buffer == Buffer::stencil ? "stencil"
-                                     : "accumulation";
+  switch (buffer) {
+    case Buffer::color: return "colour";
+    case Buffer::depth: return "depth";
+    case Buffer::stencil: return "stencil";
+    default: return "accumulation";
+  }
 }
 
 }  // namespace detail
@@ -58,7 +60,8 @@ void require_image(const ImageTarget& target, const FrameBufferFormat& format, c
                     std::to_string(target.height) + " pixels, the frame buffer is " +
                     std::to_string(format.width) + " x " + std::to_string(format.height));
   const std::ptrdiff_t row = std::ptrdiff_t{4} * target.width;
-  if (target.height > 1 && target.stride_bytes < row && target.stride_bytes > -row)
+  const bool rows_overlap = target.stride_bytes < row && target.stride_bytes > -row;
+  if (target.height > 1 && rows_overlap)
     throw Error(ErrorCode::invalid_argument, std::string(function) + ": the target's stride is " +
                                                  std::to_string(target.stride_bytes) +
                                                  " bytes, a row takes " + std::to_string(row));
@@ -166,7 +169,7 @@ void check_format(const FrameBufferFormat& format) {
   require_palette_size(format.palette.size(), format.color_bits);
 }
 
-// Quantizes the palette.
+/// Checks and quantizes a palette.
 Palette checked_palette(std::span<const Color> colors, int bits) {
   require_palette_size(colors.size(), bits);
   Palette palette{.bits = bits, .entries = {}};
@@ -234,8 +237,10 @@ FrameBuffer::FrameBuffer(FrameBufferFormat format, std::span<std::byte> memory)
 std::size_t FrameBuffer::memory_bytes(const FrameBufferFormat& format) {
   check_format(format);
   FrameBufferState state;
-  state.format.width = format.width, state.format.height = format.height;
-  state.format.color_bits = format.color_bits, state.format.alpha_bits = format.alpha_bits,
+  state.format.width = format.width;
+  state.format.height = format.height;
+  state.format.color_bits = format.color_bits;
+  state.format.alpha_bits = format.alpha_bits;
   state.format.stencil_bits = format.stencil_bits;
   state.format.accumulation_bits = format.accumulation_bits;
   state.depth_format = format.depth;
@@ -291,11 +296,12 @@ const Attachment& require_defined(FrameBufferState& state, Buffer which, const c
   return buffer;
 }
 
-// Calls use(words of a row, y) for every row from the top. Planes are read in bands of tiles.
+/// Calls use(words of a row, y) for every row from the top. Planes are read in bands of tiles.
 template <class Use>
 void for_each_row(const Attachment& buffer, const char* function, const Use& use) {
   constexpr int kBandRows = 32;
-  const int width = buffer.planes.width_px(), height = buffer.planes.height_px();
+  const int width = buffer.planes.width_px();
+  const int height = buffer.planes.height_px();
   LoadPlanesFn* const load =
       translate_bad_alloc(function, [] { return load_planes_for(available_isas().front()); });
   auto band = translate_bad_alloc(function, [&] {
@@ -350,8 +356,7 @@ void FrameBuffer::read_color(const ImageTarget& target) const {
   require_image(target, state_->format, "FrameBuffer::read_color");
   const FloatingPointMode mode;
   const auto scan_out = translate_bad_alloc("FrameBuffer::read_color", [&] {
-    return ScanOut(state_->layout, state_->layout.index ? &state_->palette : nullptr,
-                   target.order == PixelOrder::rgba8 ? PixelOrder::rgba8 : PixelOrder::bgra8,
+    return ScanOut(state_->layout, state_->layout.index ? &state_->palette : nullptr, target.order,
                    available_isas().front());
   });
   const PixelRect region = target_region(target);

@@ -14,7 +14,7 @@
 
 namespace tessera::detail {
 
-/// In the order of their planes in memory.
+/// All buffers, in the order of their planes in memory.
 inline constexpr Buffer kBuffers[] = {Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation};
 
 /// One stack of bitplanes, and the state of its contents.
@@ -35,13 +35,13 @@ struct Attachment {
     else planes.allocate(clear_value);
     content = Content::planes;
   }
-  /// Every pixel becomes `value`.
+  /// Sets every pixel to `value`, and releases the planes.
   void fast_clear(std::uint32_t value) {
     planes.release();
     content = Content::fast_cleared;
     clear_value = value & planes.value_mask();
   }
-  /// External memory is read by the caller: it must hold the contents.
+  /// External memory is read by the caller, so it must hold the contents.
   void materialize_external_memory() {
     if (planes.uses_external_memory() && planes.plane_count() > 0) materialize();
   }
@@ -56,7 +56,7 @@ struct FrameBufferState {
   Attachment color, depth, stencil;
   std::array<Attachment, 4> accumulation;  ///< r g b a: one stack holds at most 32 planes
 
-  /// The first stack of a buffer. The four of accumulation share their state.
+  /// The first stack of a buffer. The four stacks of accumulation have the same `content`.
   Attachment& buffer(Buffer which) {
     switch (which) {
       case Buffer::color: return color;

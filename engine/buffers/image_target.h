@@ -1,4 +1,4 @@
-// Checks of image targets.
+// Checks and regions of image targets.
 #pragma once
 
 #include "engine/tessera/tessera.hpp"
@@ -6,10 +6,11 @@
 
 namespace tessera::detail {
 
-/// Throws Error if the target does not fit the format.
+/// Checks the target of Renderer::finish().
+/// @throws Error  if the target does not fit the format
 void check_image_target(const ImageTarget& target, const FrameBufferFormat& format);
 
-/// Pixels of a checked target that are written, rows from the top.
+/// Pixels of a checked target that are written, in raster space.
 PixelRect target_region(const ImageTarget& target);
 
 }  // namespace tessera::detail

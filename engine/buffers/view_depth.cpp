@@ -12,20 +12,26 @@ ViewDepth::ViewDepth(const Camera& camera, float background, const char* functio
     : reversed_(camera.reversed), background_(background) {
   require_finite({function, ": projection"}, camera.projection);
   const auto& m = camera.projection.m;
-  const auto refuse = [&](const std::string& needed) {
-    std::string rows;
-    for (std::size_t i = 8; i < 16; ++i)
-      rows += (i == 8 ? "" : i == 12 ? " and " : ", ") + format_number(m[i]);
-    throw Error(ErrorCode::invalid_argument, std::string(function) + ": projection's rows of z and w are " +
-                                                 rows + ", they must " + needed);
+  const auto row = [&](std::size_t first) {
+    std::string numbers = format_number(m[first]);
+    for (std::size_t i = first + 1; i < first + 4; ++i) numbers += ", " + format_number(m[i]);
+    return numbers;
   };
-  if (m[8] != 0 || m[9] != 0 || m[12] != 0 || m[13] != 0)
-    refuse("have 0 for x and y, or distinct depths have one distance");
+  const auto refuse = [&](const std::string& needed) {
+    throw Error(ErrorCode::invalid_argument, std::string(function) + ": projection's rows of z and w are " +
+                                                 row(8) + " and " + row(12) + ", they must " + needed);
+  };
+  const bool z_depends_on_xy = m[8] != 0 || m[9] != 0;
+  const bool w_depends_on_xy = m[12] != 0 || m[13] != 0;
+  if (z_depends_on_xy || w_depends_on_xy) refuse("have 0 for x and y, or distinct depths have one distance");
   // Divide by the largest coefficient, so that products are finite; quotients do not change.
   const double largest = std::max({std::abs(m[10]), std::abs(m[11]), std::abs(m[14]), std::abs(m[15])});
   const int exponent = largest > 0 ? -std::ilogb(largest) : 0;
   const auto scaled = [&](double element) { return std::scalbn(element, exponent); };
-  a_ = scaled(m[10]), b_ = scaled(m[11]), c_ = scaled(m[14]), e_ = scaled(m[15]);
+  a_ = scaled(m[10]);
+  b_ = scaled(m[11]);
+  c_ = scaled(m[14]);
+  e_ = scaled(m[15]);
   // If the products differ by more than their rounding (2^-53), no z yields 0/0.
   if (!(std::abs(a_ * e_ - b_ * c_) > 0x1p-50 * (std::abs(a_ * e_) + std::abs(b_ * c_))))
     refuse("not be multiples of each other, or all depths are the same");

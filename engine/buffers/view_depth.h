@@ -16,7 +16,8 @@ class ViewDepth {
   float at(double stored) const noexcept;
 
  private:
-  double a_, b_, c_, e_;  // depth is q = (a z + b) / (c z + e) for z in eye space, or (q + 1) / 2
+  // For z in eye space, q = (a z + b) / (c z + e). Depth is q if reversed, else (q + 1) / 2.
+  double a_, b_, c_, e_;
   bool reversed_;
   float background_;
 };

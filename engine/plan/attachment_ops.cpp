@@ -14,7 +14,7 @@ enum class BufferAccess : std::uint8_t {
   none,
   read,
   modify,
-  overwrite  ///< replaces all of it, whatever it held
+  overwrite  ///< replaces the whole buffer without reading it
 };
 
 BufferAccess color_access(const TileAccumulation& command, const PixelRect& whole) {
@@ -69,7 +69,8 @@ std::array<std::uint32_t, 4> clear_values(Buffer which, const TileClear& clear, 
 template <class OnClear, class OnAccumulation, class OnDraw>
 void for_each_command(const FrameCommands& commands, const OnClear& on_clear,
                       const OnAccumulation& on_accumulation, const OnDraw& on_draw) {
-  std::size_t clear = 0, accumulation = 0;
+  std::size_t clear = 0;
+  std::size_t accumulation = 0;
   const auto clears_before = [&](std::size_t draw, std::size_t end) {
     for (; clear < end && commands.clears[clear].before_draw <= draw; ++clear)
       on_clear(commands.clears[clear]);
@@ -98,31 +99,31 @@ struct BufferHistory {
 };
 
 BufferHistory history_of(Buffer which, const FrameCommands& commands, const PixelRect& whole) {
-  const BufferCommands concerning = commands_of(which);
+  const BufferCommands of_buffer = commands_of(which);
   BufferHistory history;
   bool is_first = true;
-  const auto begin = [&](bool overwritten) {
-    if (is_first) history.starts_overwritten = overwritten;
+  const auto note_command = [&](bool overwrites) {
+    if (is_first) history.starts_overwritten = overwrites;
     is_first = false;
   };
   for_each_command(
       commands,
       [&](const TileClear& clear) {
-        if (!concerning.is_cleared_by(clear)) return;
-        begin(covers(clear.rect, whole));
+        if (!of_buffer.is_cleared_by(clear)) return;
+        note_command(covers(clear.rect, whole));
         history.clears_are_whole &= covers(clear.rect, whole);
         history.last_clear = &clear;
       },
       [&](const TileAccumulation& command) {
-        const BufferAccess access = concerning.access_of(command, whole);
+        const BufferAccess access = of_buffer.access_of(command, whole);
         if (access == BufferAccess::none) return;
-        begin(access == BufferAccess::overwrite);
+        note_command(access == BufferAccess::overwrite);
         history.is_used = true;
         history.is_changed |= access != BufferAccess::read;
       },
       [&](const DrawPlan& plan) {
-        if (!concerning.is_drawn_by(plan)) return;
-        begin(false);
+        if (!of_buffer.is_drawn_by(plan)) return;
+        note_command(false);
         history.is_used = history.is_changed = true;
       });
   return history;
@@ -138,15 +139,15 @@ AttachmentOps plan_attachment(Buffer which, const FrameCommands& commands, Frame
   const BufferHistory history = history_of(which, commands, whole_buffer(target));
   const bool keep = keeps_buffer(recording, which, history.touched(), presented);
   const bool is_shown = presented && which == Buffer::color;
+  const bool keeps_clear = keep && history.last_clear != nullptr;
   AttachmentOps ops;
-  if (history.is_used || is_shown || (keep && history.last_clear != nullptr))
+  if (history.is_used || is_shown || keeps_clear)
     ops.load = history.starts_overwritten ? LoadOp::dont_care : LoadOp::load;
   if (ops.loads() && target.buffer(which).content == Attachment::Content::undefined)
-    throw Error(
-        ErrorCode::invalid_state,
-        "Renderer::finish: the frame starts from the " + std::string(name(which)) +
-            " buffer, which the frame before did not keep; clear the whole of it first, or name it in "
-            "Frame::keep() then");
+    throw Error(ErrorCode::invalid_state,
+                "Renderer::finish: the frame starts from the " + std::string(name(which)) +
+                    " buffer, which the frame before did not keep; clear the whole of it first, or keep it "
+                    "with Frame::keep() in the frame before");
   if (!history.touched()) return ops;
   if (!keep) {
     ops.store = StoreOp::discard;

@@ -15,7 +15,7 @@ struct FrameCommands;
 enum class LoadOp : std::uint8_t {
   none,      ///< tiles do not use the attachment
   load,      ///< contents of the frame buffer
-  dont_care  ///< undefined: the first command replaces all of it
+  dont_care  ///< undefined: the first command replaces the whole attachment
 };
 
 /// Contents of the frame buffer after the frame.

@@ -25,14 +25,15 @@ struct DrawPlan {
   float line_width = 1;      ///< pixels
   bool outlines = false;     ///< some faces are drawn as lines or points
   PolygonMode mode[2] = {};  ///< per face: [0] front, [1] back
-  PixelRect rect;            ///< pixels that may change, raster space
+  PixelRect rect;            ///< pixels that may change; raster space
   bool keep_front = true;
   bool keep_back = true;
   bool front_is_clockwise = false;
   bool is_noop = false;  ///< no buffer can change
 
-  std::optional<PixelRectangle> pixel_rectangle;  ///< a bitmap or an image in place of a mesh
-  std::int32_t depth_key = 0;                     ///< depth of its pixels
+  // A bitmap or an image in place of a mesh.
+  std::optional<PixelRectangle> pixel_rectangle;
+  std::int32_t depth_key = 0;  ///< depth of all its pixels
 
   // Pixels.
   ColorSource source = ColorSource::constant;
@@ -48,7 +49,7 @@ struct DrawPlan {
   /// one sample, which stores packed colors.
   bool float_colors = false;
   FragmentOps ops;
-  bool uses_stencil = false;  ///< tests or writes it
+  bool uses_stencil = false;  ///< tests or writes the stencil buffer
   float offset_factor = 0;
   float offset_units = 0;
   float alpha[2] = {1, 1};          ///< per face: [0] front, [1] back
@@ -61,15 +62,15 @@ struct DrawPlan {
   bool two_sided = false;  ///< back faces have their own lighting program
   std::vector<EyeLight> lights;
   LightingProgram front, back;
-  Rgb constant_color{};      ///< ColorSource::constant; 0 to 1
+  Rgb constant_color{};      ///< ColorSource::constant: 0 to 1
   bool is_index[2] = {};     ///< per face, [0] front, [1] back: the colour is an index
-  float constant_index = 0;  ///< ColorSource::constant, if it is an index
+  float constant_index = 0;  ///< ColorSource::constant, if the colour is an index
   bool uses_vertex_colors = false;
   bool uses_color_indices = false;
-  bool smooth_normals = false;  ///< generated: means of the face normals
-  bool face_normals = false;    ///< generated: flat
-  bool provoking_vertex_elsewhere =
-      false;                  ///< flat: the provoking vertex may lie in another triangle of a quad
+  bool smooth_normals = false;  ///< generated normals per vertex: means of the face normals
+  bool face_normals = false;    ///< generated normals per triangle
+  /// Flat shading of quads: the provoking vertex of a triangle may be a vertex of the other triangle only.
+  bool provoking_vertex_elsewhere = false;
   bool scaled_colors = true;  ///< interpolated colours are carried as levels
 
   TexturePlan texture;
@@ -77,7 +78,7 @@ struct DrawPlan {
 
   VaryingLayout varyings;
 
-  /// Inputs of lighting, at vertices, triangles or pixels.
+  // Inputs of lighting, at vertices, triangles or pixels.
   bool needs_normal() const { return lit && (front.needs_normal || (two_sided && back.needs_normal)); }
   bool needs_position() const { return lit && (front.needs_position || (two_sided && back.needs_position)); }
   /// The texture's one colour is folded into the colours of vertices, triangles or the draw.
@@ -98,7 +99,7 @@ struct DrawPlan {
            (flat && (face_normals || provoking_vertex_elsewhere));
   }
 
-  /// Restores the defaults; lists keep their memory.
+  /// Restores the defaults. Lists keep their memory.
   void reset();
 };
 
@@ -112,7 +113,7 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
 std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask,
                          const ColorLayout& layout);
 
-/// A rectangle of window coordinates in raster space.
+/// Converts a rectangle from window coordinates to raster space.
 PixelRect raster_rect(const Rect& rect, int frame_height);
 
 inline PixelRect whole_buffer(const FrameBufferState& target) {

@@ -138,7 +138,7 @@ std::string numbers(const EffectNote& note) {
   return text;
 }
 
-/// Wording of active effects for which "on" would not tell enough; empty: the reason's phrase.
+/// Wording of effects whose reason is `requested`.
 std::string_view phrase_if_requested(Effect effect) {
   switch (effect) {
     case Effect::planar_shadow: return "on, unlit in one colour";

@@ -75,9 +75,12 @@ EyeTransform eye_transform(const glm::dmat4& eye_from_object, const NormalLength
   scale_by(m, -exponent);
   glm::dmat3 normal(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
   const double determinant = glm::dot(m[0], normal[0]);
-  const bool singular = !std::isnormal(determinant), lengths_matter = lengths.shortest == 0;
-  normal *= !singular ? 1 / determinant : determinant < 0 ? -1.0 : 1.0;
-  scale_by(normal, !lengths_matter ? -exponent_of(normal) : singular ? 2 * exponent : -exponent);
+  const bool singular = !std::isnormal(determinant);
+  if (singular) normal *= determinant < 0 ? -1.0 : 1.0;
+  else normal *= 1 / determinant;
+  const bool lengths_matter = lengths.shortest == 0;
+  if (!lengths_matter) scale_by(normal, -exponent_of(normal));
+  else scale_by(normal, singular ? 2 * exponent : -exponent);
 
   EyeTransform eye;
   std::copy_n(from_glm(eye_from_object).m.begin(), 16, eye.eye_from_object);

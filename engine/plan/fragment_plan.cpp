@@ -27,11 +27,12 @@ void plan_stencil(FragmentPlan& plan, const StencilState& state, int bits) {
   ops.stencil = plan.uses_stencil = !does_nothing(ops.faces[0]) || !does_nothing(ops.faces[1]);
 }
 
-// The blend yields the source colour.
+/// The blend yields the source colour.
 bool is_replacing(const FragmentOps& ops) {
-  return ops.src_color == BlendFactor::one && ops.src_alpha == BlendFactor::one &&
-         ops.dst_color == BlendFactor::zero && ops.dst_alpha == BlendFactor::zero &&
-         (ops.equation == BlendEquation::add || ops.equation == BlendEquation::subtract);
+  const bool keeps_source = ops.src_color == BlendFactor::one && ops.src_alpha == BlendFactor::one;
+  const bool drops_destination = ops.dst_color == BlendFactor::zero && ops.dst_alpha == BlendFactor::zero;
+  const bool sums = ops.equation == BlendEquation::add || ops.equation == BlendEquation::subtract;
+  return keeps_source && drops_destination && sums;
 }
 
 void plan_blend(FragmentOps& ops, const BlendState& state) {
@@ -96,8 +97,8 @@ FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& targ
   }
   const bool stores_alpha = writes_color && target.layout.alpha_bits > 0;
   if (stores_alpha) notes.active(Effect::alpha_planes);
-  const bool depends_on_color =
-      ops.alpha_test || ops.blend || ops.dither || ops.logic != LogicOp::copy || stores_alpha;
+  const bool changes_color = ops.blend || ops.dither || ops.logic != LogicOp::copy;
+  const bool depends_on_color = ops.alpha_test || changes_color || stores_alpha;
   plan.needed = ops.stencil || depends_on_color;
   plan.is_stencil_only = ops.stencil && !depends_on_color;
   return plan;

@@ -1,4 +1,4 @@
-// Fragment operations of a draw. Operations without effect are left out.
+// Plan of a draw's fragment operations. Operations without effect are left out.
 #pragma once
 
 #include "engine/buffers/frame_buffer_state.h"
@@ -9,17 +9,18 @@ namespace tessera::detail {
 
 struct FragmentPlan {
   FragmentOps ops;
-  bool needed = false;           ///< false: fragments only have a depth test
+  bool needed = false;           ///< false: fragments go through the depth test alone
   bool is_stencil_only = false;  ///< `ops` is a stencil test and nothing else
-  bool uses_stencil = false;
+  bool uses_stencil = false;     ///< tests or writes the stencil buffer
 };
 
-/// Operations that dither for a buffer, and do nothing else.
+/// The dither of a buffer, without any other operation.
 FragmentOps dither_ops(const FrameBufferState& target);
 
+/// Plans the operations that have an effect.
 /// @param writes_color  a colour plane may change
 /// @param only_indices  colour indices are stored, which are not dithered
-/// @param notes  receives the operations
+/// @param notes         receives the operations, and reasons why others are skipped
 FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color,
                             bool only_indices, const EffectNotes& notes);
 

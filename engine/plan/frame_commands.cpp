@@ -27,10 +27,14 @@ void set_clear_color(TileClear& to, const Clear& clear, FrameBufferState& target
   to.packed_color = pack_color_or_index(target.layout, target.ensure_palette_search(), c.r, c.g, c.b, c.a);
   if (!ops.dither) return;
   for (std::size_t i = 0; i < to.pattern.size(); ++i) {
-    const float t = ops.threshold[i / kDitherSize][i % kDitherSize], moved = (t - 0.5f) * ops.palette_spread;
-    to.pattern[i] = target.layout.index ? target.ensure_palette_search()->nearest_unclamped(
-                                              c.r + moved, c.g + moved, c.b + moved)
-                                        : pack_color(target.layout, {c.r, c.g, c.b, c.a}, t);
+    const float threshold = ops.threshold[i / kDitherSize][i % kDitherSize];
+    if (target.layout.index) {
+      const float shift = (threshold - 0.5f) * ops.palette_spread;
+      to.pattern[i] =
+          target.ensure_palette_search()->nearest_unclamped(c.r + shift, c.g + shift, c.b + shift);
+    } else {
+      to.pattern[i] = pack_color(target.layout, {c.r, c.g, c.b, c.a}, threshold);
+    }
     to.dithered |= to.pattern[i] != to.packed_color;
   }
 }
@@ -47,7 +51,7 @@ std::optional<TileAccumulation> plan_accumulation(const Accum& accum, const Fram
   return command;
 }
 
-/// The plan of each draw, and which of them can change something.
+/// Plans each draw, and lists the plans of draws that can change a pixel.
 void plan_draws(FrameCommands& commands, FrameRecording& recording, WorkerPool& worker_pool) {
   const std::size_t draws = recording.draws.size();
   const auto plan_range = [&](std::size_t first, std::size_t last) {

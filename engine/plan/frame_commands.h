@@ -16,10 +16,10 @@ namespace tessera::detail {
 
 /// Memory is kept from frame to frame.
 struct FrameCommands {
-  std::vector<DrawPlan> plan_memory;   ///< per recorded draw; may hold more, of earlier frames
+  std::vector<DrawPlan> plan_memory;   ///< per recorded draw; excess plans are of earlier frames
   std::vector<const DrawPlan*> plans;  ///< plans of draws that can change a pixel
   std::vector<std::size_t> plan_draw;  ///< per plan: its recorded draw
-  /// Per plan, and one past the last: its first tile draw. Polygons with several polygon modes have several.
+  /// Per plan, and one past the last: its first tile draw. A plan has one tile draw per polygon mode.
   std::vector<std::uint32_t> first_tile_draw;
   std::vector<GeometryDraw> geometry;
   std::vector<TileDraw> tile_draws;

@@ -16,16 +16,18 @@ void plan_pixel_places(DrawPlan& plan, const RecordedPixels& pixels, const Frame
 void plan_pixel_colors(DrawPlan& plan, const RecordedPixels& pixels, const EffectNotes& notes) {
   const PixelRectangle& texels = pixels.rectangle;
   const bool is_bitmap = texels.channels == 0;
-  plan.source = plan.write_mask == 0 ? ColorSource::none
-                : is_bitmap          ? ColorSource::constant
-                                     : ColorSource::texels;
   plan.constant_color = {clamp_unit(pixels.color.r), clamp_unit(pixels.color.g), clamp_unit(pixels.color.b)};
   plan.alpha[0] = plan.alpha[1] = clamp_unit(pixels.color.a);
-  EffectReason colors = is_bitmap ? EffectReason::per_draw : EffectReason::per_texel;
-  if (plan.source == ColorSource::none) colors = EffectReason::no_color_stored;
+  plan.source = is_bitmap ? ColorSource::constant : ColorSource::texels;
+  EffectReason reason = is_bitmap ? EffectReason::per_draw : EffectReason::per_texel;
+  const bool stores_color = plan.write_mask != 0;
+  if (!stores_color) {
+    plan.source = ColorSource::none;
+    reason = EffectReason::no_color_stored;
+  }
   notes.add({.effect = is_bitmap ? Effect::bitmap : Effect::image,
-             .active = plan.source != ColorSource::none,
-             .reason = colors,
+             .active = stores_color,
+             .reason = reason,
              .width = texels.width,
              .height = texels.height,
              .channels = texels.channels});

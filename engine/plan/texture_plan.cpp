@@ -5,13 +5,14 @@
 namespace tessera::detail {
 namespace {
 
-// A texture of one colour leaves the components that matter unchanged.
-bool changes_nothing(const DrawTexture& texture, bool color_matters, bool alpha_matters) {
+/// A texture of one colour leaves the components that matter unchanged.
+bool changes_nothing(const DrawTexture& texture, const TextureNeeds& needs) {
   const auto [r, g, b, a] = texture.texel;
-  const bool white = r == 1 && g == 1 && b == 1, black = r == 0 && g == 0 && b == 0;
-  if (alpha_matters && texture.changes_alpha() && (texture.function == TextureEnv::replace || a != 1))
-    return false;
-  if (!color_matters) return true;
+  const bool white = r == 1 && g == 1 && b == 1;
+  const bool black = r == 0 && g == 0 && b == 0;
+  const bool changes_alpha = texture.changes_alpha() && (texture.function == TextureEnv::replace || a != 1);
+  if (needs.alpha && changes_alpha) return false;
+  if (!needs.colors) return true;
   switch (texture.function) {
     case TextureEnv::modulate: return white;
     case TextureEnv::replace: return false;
@@ -38,8 +39,7 @@ TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, co
   if (state.one_color || !draw.mesh.texcoords) {
     texture.texel = state.one_color ? *state.one_color : state.at_origin;
     if (!state.one_color) notes.skipped(Effect::texture_coordinates, EffectReason::not_in_mesh);
-    if (changes_nothing(texture, needs.colors, needs.alpha))
-      notes.skipped(Effect::texture, EffectReason::no_effect);
+    if (changes_nothing(texture, needs)) notes.skipped(Effect::texture, EffectReason::no_effect);
     else plan.use = TexturePlan::Use::one_color;
     return plan;
   }

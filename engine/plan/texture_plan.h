@@ -13,8 +13,8 @@ struct TexturePlan {
   enum class Use : std::uint8_t { none, one_color, texels } use = Use::none;
   DrawTexture texture;  ///< complete except for the attribute
 
-  /// One colour that may be applied before interpolation, if no colour is extrapolated and clamped: every
-  /// function but add, whose sum is clamped at 1.
+  /// The one colour may be applied before interpolation, provided that no colour is extrapolated and clamped.
+  /// False for TextureEnv::add, whose sum is clamped at 1.
   bool is_affine() const { return use == Use::one_color && texture.function != TextureEnv::add; }
 };
 
@@ -24,8 +24,8 @@ struct TextureNeeds {
   bool alpha = false;  ///< alpha is tested, blended with, or stored
 };
 
-/// @param notes  receives how texels are used, or why they are skipped; the caller notes textures of a
-///               single colour
+/// @param notes  receives the use of texels, or the reason why they are skipped; the caller notes textures
+///               of one colour
 TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, const EffectNotes& notes);
 
 }  // namespace tessera::detail

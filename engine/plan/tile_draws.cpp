@@ -28,7 +28,8 @@ void set_varyings(TileDraw& draw, const DrawPlan& plan) {
   draw.attribute_stride = layout.count;
   draw.attribute_count = layout.shading_count;
   const auto map = [&](int offset, int field) {
-    for (int c = 0; c < 3 && offset >= 0; ++c) draw.fields[offset + c] = static_cast<std::uint8_t>(field + c);
+    if (offset < 0) return;
+    for (int c = 0; c < 3; ++c) draw.fields[offset + c] = static_cast<std::uint8_t>(field + c);
   };
   const bool lit_per_pixel = plan.source == ColorSource::per_pixel;
   if (lit_per_pixel) {
@@ -45,16 +46,23 @@ void set_varyings(TileDraw& draw, const DrawPlan& plan) {
 }  // namespace
 
 std::span<const PolygonMode> polygon_modes_of(const DrawPlan& plan) {
-  static constexpr PolygonMode kInOrder[] = {PolygonMode::fill, PolygonMode::line, PolygonMode::point},
-                               kBothEnds[] = {PolygonMode::fill, PolygonMode::point};
+  static constexpr PolygonMode kAll[] = {PolygonMode::fill, PolygonMode::line, PolygonMode::point};
+  static constexpr PolygonMode kFillAndPoint[] = {PolygonMode::fill, PolygonMode::point};
   if (!plan.outlines) return {};
   const auto [first, last] =
       std::minmax({static_cast<std::size_t>(plan.mode[0]), static_cast<std::size_t>(plan.mode[1])});
-  if (last - first == 2) return kBothEnds;
-  return {kInOrder + first, last - first + 1};
+  if (last - first == 2) return kFillAndPoint;
+  return {kAll + first, last - first + 1};
 }
 
 namespace {
+
+std::uint32_t constant_packed_color(const GeometryDraw& geometry) {
+  const DrawPlan& plan = *geometry.plan;
+  if (plan.is_index[0]) return quantize_index(*geometry.layout, plan.constant_index);
+  return pack_color_or_index(*geometry.layout, geometry.palette_search, plan.constant_color[0],
+                             plan.constant_color[1], plan.constant_color[2]);
+}
 
 TileDraw tile_draw(const GeometryDraw& geometry) {
   const DrawPlan& plan = *geometry.plan;
@@ -86,11 +94,7 @@ TileDraw tile_draw(const GeometryDraw& geometry) {
   std::copy_n(plan.is_index, 2, draw.index);
   draw.programs[0] = &plan.front;
   draw.programs[1] = plan.two_sided ? &plan.back : &plan.front;
-  if (plan.source == ColorSource::constant)
-    draw.packed_color = plan.is_index[0] ? quantize_index(*geometry.layout, plan.constant_index)
-                                         : pack_color_or_index(*geometry.layout, geometry.palette_search,
-                                                               plan.constant_color[0], plan.constant_color[1],
-                                                               plan.constant_color[2]);
+  if (plan.source == ColorSource::constant) draw.packed_color = constant_packed_color(geometry);
   if (plan.textures_per_pixel) {
     draw.texture = &plan.texture.texture;
     for (int face = 0; face < 2; ++face)

@@ -5,7 +5,7 @@
 namespace tessera::detail {
 namespace {
 
-/// Returns the offset of `floats` more floats.
+/// Adds `floats` floats to the record, and returns their offset.
 int append(VaryingLayout& layout, int floats) {
   const int offset = layout.count;
   layout.count += floats;
@@ -17,7 +17,7 @@ void add_lighting_inputs(VaryingLayout& layout, const DrawPlan& plan) {
   if (plan.needs_position()) layout.position = append(layout, 3);
   if (plan.uses_vertex_colors) layout.color[0] = layout.color[1] = append(layout, 3);
   layout.shading_count = layout.count;
-  // Lighting leaves alpha alone: it is interpolated next to the lighting inputs, not as one of them.
+  // Lighting does not read alpha: it is stored after the inputs of lighting.
   if (plan.float_colors && plan.vertex_alpha) layout.alpha[0] = layout.alpha[1] = append(layout, 1);
 }
 

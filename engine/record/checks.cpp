@@ -1,6 +1,5 @@
 #include "engine/record/checks.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -9,11 +8,10 @@ namespace {
 
 template <class Values>
 void require_all_finite(const FieldName& name, const Values& values) {
-  const auto odd =
-      std::find_if(std::begin(values), std::end(values), [](double v) { return !std::isfinite(v); });
-  if (odd != std::end(values))
-    throw Error(ErrorCode::invalid_argument,
-                name.text() + " holds " + format_number(*odd) + ", must be finite");
+  for (const double value : values)
+    if (!std::isfinite(value))
+      throw Error(ErrorCode::invalid_argument,
+                  name.text() + " holds " + format_number(value) + ", must be finite");
 }
 
 }  // namespace
@@ -70,13 +68,12 @@ void check_blend(const char* function, const BlendState& blend) {
 
 void check_color_mask(const char* function, const std::array<bool, 4>& mask, const FrameBufferState& target) {
   if (mask[0] == mask[1] && mask[1] == mask[2]) return;
-  const char* const held = target.layout.index       ? "an index buffer has one"
-                           : target.layout.luminance ? "a buffer of 1 or 2 bits has luminance alone"
-                                                     : nullptr;
-  if (held)
-    throw Error(
-        ErrorCode::incompatible_format,
-        std::string(function) + ": the colour mask differs between components, " + held + ": all or none");
+  if (!target.layout.index && !target.layout.luminance) return;
+  const char* const reason = target.layout.index ? "an index buffer stores one value per pixel"
+                                                 : "a buffer of 1 or 2 bits stores luminance alone";
+  throw Error(ErrorCode::incompatible_format, std::string(function) +
+                                                  ": color_mask differs between r, g and b, but " + reason +
+                                                  "; set all or none of the three");
 }
 
 void check_fragment_state(const char* function, const DrawState& s, const FrameBufferState& target) {

@@ -85,7 +85,7 @@ void check_size(const char* name, float size) {
                                                format_number(size) + ", must be a finite number above 0");
 }
 
-// Sizes of points and lines, and polygon offset.
+/// Checks sizes of points and lines, and the polygon offset.
 void check_shape(const DrawState& s, const FrameBufferState& target) {
   check_size("point_size", s.point_size);
   check_size("line_width", s.line_width);

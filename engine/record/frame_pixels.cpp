@@ -12,15 +12,19 @@ namespace tessera {
 using namespace detail;
 namespace {
 
-// Checks common to bitmaps and images. @param row_bytes  minimum size of a row
-void check_pixels(const char* function, RecordedPixels& pixels, const char* memory, std::int64_t row_bytes) {
+/// Makes the checks common to bitmaps and images, and sets the default stride.
+/// @param memory_name  argument that holds the pixels, named in errors
+/// @param row_bytes    minimum size of a row
+void check_pixels(const char* function, RecordedPixels& pixels, const char* memory_name,
+                  std::int64_t row_bytes) {
   PixelRectangle& texels = pixels.rectangle;
   require_range({function, ": width"}, texels.width, 1, kMaxFrameBufferSize);
   require_range({function, ": height"}, texels.height, 1, kMaxFrameBufferSize);
   if (texels.top_row == nullptr)
-    throw Error(ErrorCode::invalid_argument, std::string(function) + ": " + memory + " is null");
+    throw Error(ErrorCode::invalid_argument, std::string(function) + ": " + memory_name + " is null");
   if (texels.stride_bytes == 0) texels.stride_bytes = static_cast<std::ptrdiff_t>(row_bytes);
-  if (texels.height > 1 && texels.stride_bytes < row_bytes && texels.stride_bytes > -row_bytes)
+  const bool rows_overlap = texels.stride_bytes < row_bytes && texels.stride_bytes > -row_bytes;
+  if (texels.height > 1 && rows_overlap)
     throw Error(ErrorCode::invalid_argument, std::string(function) + ": stride_bytes is " +
                                                  std::to_string(texels.stride_bytes) + ", a row takes " +
                                                  std::to_string(row_bytes) + " bytes");

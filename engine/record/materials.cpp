@@ -10,7 +10,11 @@ namespace {
 
 struct NamedMaterial {
   std::string_view name;
-  float ambient[3], diffuse[3], specular[3], alpha, shininess;
+  float ambient[3];
+  float diffuse[3];
+  float specular[3];
+  float alpha;
+  float shininess;
 };
 
 constexpr NamedMaterial kMaterials[] = {

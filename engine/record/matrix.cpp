@@ -48,29 +48,35 @@ namespace detail {
 
 glm::dvec3 scaled_to_safe_range(const glm::dvec3& v) {
   const double largest = std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z)));
-  if (!(largest > 0) || !std::isfinite(largest) || (largest > 1e-100 && largest < 1e100)) return v;
+  const bool has_direction = largest > 0 && std::isfinite(largest);
+  const bool is_safe = largest > 1e-100 && largest < 1e100;
+  if (!has_direction || is_safe) return v;
   const int exponent = std::ilogb(largest);
   return {std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent), std::scalbn(v.z, -exponent)};
 }
 
 }  // namespace detail
 
-// [GL 2.1, 2.11.2, Rotate]
 SinCos sin_cos_degrees(double degrees) {
   const SineCosine result = sine_cosine(degrees);
   return {result.sine, result.cosine};
 }
 
+// [GL 2.1, 2.11.2, Rotate]
 Matrix rotate(double degrees, double x, double y, double z) {
   const FloatingPointMode mode;
   const glm::dvec3 axis = scaled_to_safe_range({x, y, z});
-  x = axis.x, y = axis.y, z = axis.z;
+  x = axis.x;
+  y = axis.y;
+  z = axis.z;
   const double length = std::sqrt(x * x + y * y + z * z);
   if (!(length > 0) || !std::isfinite(length))
     throw Error(ErrorCode::invalid_argument,
                 "rotate: the axis has no direction, it must be a finite vector other than 0 0 0");
   if (!std::isfinite(degrees)) throw Error(ErrorCode::invalid_argument, "rotate: the angle is not finite");
-  x /= length, y /= length, z /= length;
+  x /= length;
+  y /= length;
+  z /= length;
   const auto [s, c] = sine_cosine(degrees);
   const double t = 1 - c;
   return {{x * x * t + c, x * y * t - z * s, x * z * t + y * s, 0,  //
@@ -81,8 +87,9 @@ Matrix rotate(double degrees, double x, double y, double z) {
 
 Matrix look_at(Vec3 eye, Vec3 target, Vec3 up) {
   const FloatingPointMode mode;
-  const glm::dvec3 e(eye.x, eye.y, eye.z), t(target.x, target.y, target.z),
-      u = scaled_to_safe_range({up.x, up.y, up.z});
+  const glm::dvec3 e(eye.x, eye.y, eye.z);
+  const glm::dvec3 t(target.x, target.y, target.z);
+  const glm::dvec3 u = scaled_to_safe_range({up.x, up.y, up.z});
   const double span = glm::length(glm::cross(t - e, u));
   if (!(span > 0) || !std::isfinite(span))
     throw Error(
@@ -135,14 +142,15 @@ Matrix finite(const char* function, const Matrix& matrix) {
 
 }  // namespace
 
-// [GL 2.1, 2.11.2, Frustum]; for an infinite far plane its limit; reversed: z = w at near and 0 at far.
+// [GL 2.1, 2.11.2, Frustum]. An infinite far plane is the limit of the formula. Reversed depth: z is w at
+// near and 0 at far.
 Matrix frustum(double left, double right, double bottom, double top, double near, double far, bool reversed) {
   const FloatingPointMode mode;
   require_span("frustum", "left", left, "right", right);
   require_span("frustum", "bottom", bottom, "top", top);
   require_depths("frustum", near, far, true);
   require_positive_depths("frustum", near, far);
-  double a, b;
+  double a, b;  // clip z is a z + b
   if (std::isinf(far)) {
     a = reversed ? 0 : -1;
     b = reversed ? near : -2 * near;
@@ -170,7 +178,8 @@ Matrix perspective(double fovy_degrees, double aspect, double near, double far, 
   require_depths("perspective", near, far, true);
   require_positive_depths("perspective", near, far);
   const auto [s, c] = sine_cosine(fovy_degrees / 2);
-  const double half_height = near * (s / c), half_width = half_height * aspect;
+  const double half_height = near * (s / c);
+  const double half_width = half_height * aspect;
   return frustum(-half_width, half_width, -half_height, half_height, near, far, reversed);
 }
 

@@ -14,13 +14,14 @@ namespace tessera::detail {
 namespace {
 
 constexpr std::size_t kIndicesPerTask = 4096;
-// Fewer indices are validated before other workers could have started.
+/// Fewer indices are validated before other workers could have started.
 constexpr std::size_t kMinIndicesForWorkers = 65536;
 
 [[noreturn]] void fail(const std::string& message) {
   throw Error(ErrorCode::invalid_argument, "Frame::draw: the mesh " + message);
 }
 
+/// An array is packed (number of floats or bytes) or strided (number of vertices), not both.
 void require_one_form(const char* what, std::size_t packed, const char* unit, std::size_t vertices,
                       std::size_t stride_bytes) {
   if (packed != 0 && (vertices != 0 || stride_bytes != 0))
@@ -29,7 +30,6 @@ void require_one_form(const char* what, std::size_t packed, const char* unit, st
          " bytes, must have one or the other");
 }
 
-// An array is packed (number of floats) or strided (number of vertices), not both.
 std::size_t vertices_of(const FloatArray& positions, std::size_t components) {
   require_one_form("positions", positions.float_count, "floats", positions.vertices, positions.stride_bytes);
   if (positions.float_count == 0) return positions.vertices;
@@ -79,7 +79,7 @@ void add_colors(const ColorArray& colors, MeshArrays& mesh) {
   if (colors.byte_count == 0 && colors.vertices == 0) {
     if (colors.stride_bytes != 0)
       fail("has a stride of " + std::to_string(colors.stride_bytes) +
-           " bytes for colors, but no bytes of colors; that of floats is theirs");
+           " bytes for colors, but no bytes of colors; for floats, set the stride of colors.floats");
     mesh.colors = strided(colors.floats, "colors", 4, mesh.vertices);
     return;
   }
@@ -109,20 +109,38 @@ void add_indices(const IndexArray& array, MeshArrays& mesh) {
   else fail("has indices of " + std::to_string(array.bits) + " bits, must be 16 or 32");
 }
 
+/// Whether indices [first, last) are below the number of vertices.
 bool are_in_bounds(const MeshArrays& mesh, std::size_t first, std::size_t last) {
   const std::size_t count = last - first;
-  return (mesh.indices ? largest_index(std::span(mesh.indices + first, count))
-                       : largest_index(std::span(mesh.indices16 + first, count))) < mesh.vertices;
+  const std::size_t largest = mesh.indices ? largest_index(std::span(mesh.indices + first, count))
+                                           : largest_index(std::span(mesh.indices16 + first, count));
+  return largest < mesh.vertices;
 }
 
 bool are_in_bounds(const MeshArrays& mesh, WorkerPool* workers) {
   if (workers == nullptr || mesh.corners < kMinIndicesForWorkers) return are_in_bounds(mesh, 0, mesh.corners);
-  std::atomic<bool> all = true;
+  std::atomic<bool> all_in_bounds = true;
   workers->for_each((mesh.corners + kIndicesPerTask - 1) / kIndicesPerTask, [&](std::size_t i, int) {
     const std::size_t first = i * kIndicesPerTask;
-    if (!are_in_bounds(mesh, first, std::min(first + kIndicesPerTask, mesh.corners))) all = false;
+    if (!are_in_bounds(mesh, first, std::min(first + kIndicesPerTask, mesh.corners))) all_in_bounds = false;
   });
-  return all;
+  return all_in_bounds;
+}
+
+void require_whole_primitives(const Mesh& mesh, std::size_t corners) {
+  if (makes_whole_primitives(mesh.primitive, corners)) return;
+  const std::string mesh_name(name_of_mesh(mesh.primitive));
+  fail("has " + std::to_string(corners) + (mesh.indices.empty() ? " vertices, " : " indices, ") + mesh_name +
+       (mesh_name.starts_with("a ") ? " needs " : " need ") + std::string(corners_needed(mesh.primitive)));
+}
+
+const char* plural_of(Topology topology) {
+  switch (topology) {
+    case Topology::points: return "points";
+    case Topology::lines: return "lines";
+    case Topology::triangles: break;
+  }
+  return "triangles";
 }
 
 }  // namespace
@@ -144,21 +162,13 @@ MeshArrays check_mesh(const Mesh& mesh) {
   add_colors(mesh.colors, arrays);
   arrays.color_indices = strided(mesh.color_indices, "color_indices", 1, arrays.vertices);
   arrays.texcoords = strided(mesh.texcoords, "texcoords", 2, arrays.vertices);
-  const std::size_t corners = mesh.indices.empty() ? arrays.vertices : mesh.indices.count;
   arrays.primitive = mesh.primitive;
-  if (!makes_whole_primitives(mesh.primitive, corners))
-    fail("has " + std::to_string(corners) + (mesh.indices.empty() ? " vertices" : " indices") + ", " +
-         std::string(name_of_mesh(mesh.primitive)) +
-         (name_of_mesh(mesh.primitive).starts_with("a ") ? " needs " : " need ") +
-         std::string(corners_needed(mesh.primitive)));
-  arrays.corners = corners;
-  arrays.elements = element_count(mesh.primitive, corners);
+  arrays.corners = mesh.indices.empty() ? arrays.vertices : mesh.indices.count;
+  require_whole_primitives(mesh, arrays.corners);
+  arrays.elements = element_count(mesh.primitive, arrays.corners);
   if (arrays.elements > kMaxTriangles)
-    fail("has " + std::to_string(arrays.elements) +
-         (arrays.topology() == Topology::points  ? " points"
-          : arrays.topology() == Topology::lines ? " lines"
-                                                 : " triangles") +
-         ", at most " + std::to_string(kMaxTriangles) + " are possible in one draw");
+    fail("has " + std::to_string(arrays.elements) + " " + plural_of(arrays.topology()) + ", at most " +
+         std::to_string(kMaxTriangles) + " are possible in one draw");
   add_indices(mesh.indices, arrays);
   return arrays;
 }

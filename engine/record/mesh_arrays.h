@@ -15,24 +15,28 @@ class WorkerPool;
 struct MeshArrays {
   Primitive primitive = Primitive::triangles;
   std::size_t vertices = 0;
-  std::size_t corners = 0;   ///< number of indices, or of vertices without indices
-  std::size_t elements = 0;  ///< points, lines or triangles after splitting
+  std::size_t corners = 0;   ///< number of indices, or of vertices if there are no indices
+  std::size_t elements = 0;  ///< number of points, lines, or triangles after splitting
   StridedFloats positions;
-  int components = 3;                         ///< per position: 3 or 4
-  StridedFloats normals;                      ///< optional
-  StridedFloats colors;                       ///< optional
-  const std::uint8_t* color_bytes = nullptr;  ///< optional
-  std::size_t color_stride = 0;               ///< bytes
-  StridedFloats color_indices;                ///< optional
-  StridedFloats texcoords;                    ///< optional
-  const std::uint32_t* indices = nullptr;     ///< null: 16 bits, or vertices in order
+  int components = 3;  ///< components of a position: 3 or 4
+
+  // Attributes; null if the mesh lacks them.
+  StridedFloats normals;
+  StridedFloats colors;                       ///< null also if colours are bytes
+  const std::uint8_t* color_bytes = nullptr;  ///< null also if colours are floats
+  std::size_t color_stride = 0;               ///< bytes between vertices of color_bytes
+  StridedFloats color_indices;
+  StridedFloats texcoords;
+
+  // Indices of 32 or 16 bits; both null: vertices in order.
+  const std::uint32_t* indices = nullptr;
   const std::uint16_t* indices16 = nullptr;
 
   bool indexed() const { return indices != nullptr || indices16 != nullptr; }
   std::size_t triangles_per_polygon() const { return triangles_of_polygon(primitive, elements); }
   Topology topology() const { return topology_of(primitive); }
   bool has_colors() const { return colors || color_bytes != nullptr; }
-  /// The vertex at a corner of the index list.
+  /// Number of the vertex at a corner.
   std::size_t vertex_at(std::size_t corner) const {
     if (indices) return indices[corner];
     return indices16 ? indices16[corner] : corner;
@@ -44,12 +48,13 @@ struct MeshArrays {
   }
 };
 
-/// Validates everything except the values of indices. Throws Error for arrays that do not fit together, and
-/// for misaligned pointers and strides.
+/// Validates everything except the values of indices.
+/// @throws Error  for arrays that do not fit together, and for misaligned pointers and strides
 MeshArrays check_mesh(const Mesh& mesh);
 
-/// Throws Error for the first index that is out of bounds.
-/// @param workers  share the work for many indices; null: the calling thread alone
+/// Validates the values of indices.
+/// @param workers  validate large meshes in parallel; null: serial
+/// @throws Error  names the first index that is out of bounds
 void check_indices(const MeshArrays& mesh, WorkerPool* workers);
 
 }  // namespace tessera::detail

@@ -7,7 +7,7 @@
 
 namespace tessera::detail {
 
-/// Half of the size, rounded down, at least 1.
+/// Half the size, rounded down, at least 1.
 constexpr std::int32_t next_level_size(std::int32_t size) { return size > 1 ? size / 2 : 1; }
 
 /// Fills level `to` from the level before it: each texel is the area-weighted mean of the texels that it

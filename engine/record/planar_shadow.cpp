@@ -19,10 +19,11 @@ std::string list_of(const std::array<double, 4>& v, int count) {
   return list;
 }
 
-// For a homogeneous light l and a plane p, M = (p.l) I - l p^T maps a point x to the intersection of the
-// plane with the line from l through x, and w to (p.l) x.w - (p.x) l.w. Between the plane (p.x = 0) and the
-// light (p.x = p.l) that has the sign of p.l. Divided by p.l, w is positive there, as clipping requires, for
-// either direction of the normal, and 1 in the plane.
+/// For a homogeneous light l and a plane p, M = (p.l) I - l p^T maps a point x to the intersection of the
+/// plane with the line from l through x, and w to (p.l) x.w - (p.x) l.w. Between the plane (p.x = 0) and the
+/// light (p.x = p.l) that has the sign of p.l. Divided by p.l, w is positive there, as clipping requires, for
+/// either direction of the normal, and 1 in the plane.
+/// @param owner  named in errors
 Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, const Light& light) {
   constexpr double kRounding = 0x1p-22;  // relative to the terms of p.l: lights are stored as floats
   require_finite({owner, "'s plane"}, {plane[0], plane[1], plane[2], plane[3]});
@@ -36,7 +37,8 @@ Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, cons
   // result.
   const int exponent = std::ilogb(std::max(largest, std::abs(plane[3])));
   std::array<double, 4> p, l;
-  double product = 0, terms = 0;
+  double product = 0;  // p.l
+  double terms = 0;    // sum of the absolute values of its terms
   for (std::size_t i = 0; i < 4; ++i) {
     p[i] = std::scalbn(plane[i], -exponent);
     l[i] = light.position[i];
@@ -61,7 +63,8 @@ Matrix shadow_matrix(const char* owner, const std::array<double, 4>& plane, cons
       m.m[4 * row + column] -= l[row] * p[column] / product;
       if (!std::isfinite(m.m[4 * row + column]))
         throw Error(ErrorCode::invalid_argument, std::string(owner) + ": the shadow on the plane " +
-                                                     list_of(plane, 4) + " is too far away for numbers");
+                                                     list_of(plane, 4) +
+                                                     " is too far away to be represented");
     }
   return m;
 }

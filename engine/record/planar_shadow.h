@@ -5,8 +5,8 @@
 
 namespace tessera::detail {
 
-/// Replaces a draw with `shadow_on` by the draw of its shadow. Throws Error if there is no such light, or it
-/// casts no shadow on the plane.
+/// Replaces a draw with `shadow_on` by the draw of its shadow.
+/// @throws Error  if there is no such light, or it casts no shadow on the plane
 void apply_planar_shadow(RecordedDraw& draw);
 
 }  // namespace tessera::detail

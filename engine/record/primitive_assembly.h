@@ -19,8 +19,9 @@ constexpr Topology topology_of(Primitive primitive) {
   }
 }
 
-/// Corner numbers of element t; corners of triangles are in the winding of their polygon. The provoking
-/// vertex is at provoking_place(), unless that is -1.
+/// Corner numbers of element t of a mesh.
+/// - Triangles have the winding of their polygon.
+/// - The provoking vertex is at provoking_place(), unless that is -1.
 /// @param corners  number of corners of the mesh
 constexpr std::array<std::size_t, 3> element_corners(Primitive primitive, ProvokingVertex provoking,
                                                      std::size_t corners, std::size_t t) {
@@ -50,16 +51,14 @@ constexpr std::array<std::size_t, 3> element_corners(Primitive primitive, Provok
   return {};
 }
 
-/// Number of the corner that is each element's provoking vertex; -1: for some triangles it is a corner of
-/// their quad that the triangle lacks.
+/// Place of the provoking vertex in element_corners(): 0 to 2.
+/// -1 for quads whose last vertex is provoking: the first triangle of a quad lacks that vertex.
 constexpr int provoking_place(Primitive primitive, ProvokingVertex provoking) {
-  if (topology_of(primitive) == Topology::points) return 0;
-  if (topology_of(primitive) == Topology::lines) return provoking == ProvokingVertex::first ? 0 : 1;
-  if (primitive == Primitive::polygon) return 0;
-  if (provoking == ProvokingVertex::first) return 0;
-  return primitive == Primitive::quads ? -1 : 2;
+  if (provoking == ProvokingVertex::first || primitive == Primitive::polygon) return 0;
+  if (primitive == Primitive::quads) return -1;
+  return corners_of(topology_of(primitive)) - 1;
 }
-/// The provoking corner of the polygon of element t.
+/// Corner number of the vertex that gives element t, or the whole quad or polygon around it, its flat colour.
 constexpr std::size_t provoking_corner(Primitive primitive, ProvokingVertex provoking, std::size_t corners,
                                        std::size_t t) {
   const int place = provoking_place(primitive, provoking);
@@ -67,8 +66,8 @@ constexpr std::size_t provoking_corner(Primitive primitive, ProvokingVertex prov
                    : element_corners(primitive, provoking, corners, t)[static_cast<std::size_t>(place)];
 }
 
-/// The corner that triangle t adds to the triangles of its polygon before it. @pre t is not the first of its
-/// polygon
+/// Corner number of the vertex that triangle t adds to the earlier triangles of its polygon.
+/// @pre t is not the first triangle of its polygon
 constexpr std::size_t added_corner(Primitive primitive, std::size_t t) {
   switch (primitive) {
     case Primitive::quads: return t / 2 * 4 + 3;

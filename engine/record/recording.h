@@ -38,29 +38,31 @@ struct RecordedDraw {
   const TextureState* texture = nullptr;    ///< state of DrawState::texture; stays when the Texture is moved
   std::optional<RecordedPixels> pixels{};   ///< in place of the mesh, which is then empty
 };
+
 struct RecordedClear {
   Clear clear;
-  std::size_t before_draw = 0;
+  std::size_t before_draw = 0;  ///< number of draws recorded earlier
 };
 
 struct RecordedAccum {
   Accum accum;
-  std::size_t before_draw = 0, after_clears = 0;
+  std::size_t before_draw = 0;   ///< number of draws recorded earlier
+  std::size_t after_clears = 0;  ///< number of clears recorded earlier
 };
 
 struct FrameRecording {
   FrameBufferState* target = nullptr;
-  WorkerPool* workers = nullptr;  ///< workers of the renderer that helps to validate; may be null
+  WorkerPool* workers = nullptr;  ///< validate large meshes in parallel; may be null
   std::vector<RecordedDraw> draws;
   std::vector<RecordedClear> clears;
   std::vector<RecordedAccum> accumulations;
-  bool has_keep_list = false;  ///< false: keep what the frame changes
+  bool has_keep_list = false;  ///< Frame::keep() was called
   std::array<bool, 4> kept{};  ///< per Buffer, if has_keep_list
   Capture capture;
 
   /// State of the next draw.
   const SceneState& scene_state() const { return scene_states_[last_scene_state_]; }
-  /// State of the next draw, to be modified; recorded draws keep theirs. Throws std::bad_alloc.
+  /// State of the next draw, for modification; recorded draws keep their state. Throws std::bad_alloc.
   SceneState& mutable_scene_state() {
     if (draws.empty() || draws.back().scene_state != &scene_state()) return scene_states_[last_scene_state_];
     if (last_scene_state_ + 1 == scene_states_.size()) scene_states_.emplace_back();

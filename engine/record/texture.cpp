@@ -35,7 +35,8 @@ void check(const TextureImage& image, const TextureSampler& sampler) {
                                                  std::to_string(image.width) + "x" +
                                                  std::to_string(image.height) + " of them");
   const std::ptrdiff_t row = std::ptrdiff_t{image.width} * image.channels;
-  if (image.stride_bytes != 0 && image.stride_bytes < row && image.stride_bytes > -row)
+  const bool rows_overlap = image.stride_bytes < row && image.stride_bytes > -row;
+  if (image.stride_bytes != 0 && rows_overlap)
     throw Error(ErrorCode::invalid_argument, "Texture: the rows are " + std::to_string(image.stride_bytes) +
                                                  " bytes apart, but " + std::to_string(row) + " bytes long");
   require_enum({"Texture: mag"}, sampler.mag, TextureFilter::linear_mipmap_linear);
@@ -68,9 +69,9 @@ void set_filters(TextureLevels& levels, const TextureSampler& sampler) {
                       min == TextureFilter::linear_mipmap_linear;
   levels.blends_levels =
       min == TextureFilter::nearest_mipmap_linear || min == TextureFilter::linear_mipmap_linear;
-  const bool is_late = levels.mag_linear && (min == TextureFilter::nearest_mipmap_nearest ||
-                                             min == TextureFilter::nearest_mipmap_linear);
-  levels.magnification_limit = is_late ? 2.0f : 1.0f;
+  const bool magnification_is_sharper = levels.mag_linear && (min == TextureFilter::nearest_mipmap_nearest ||
+                                                              min == TextureFilter::nearest_mipmap_linear);
+  levels.magnification_limit = magnification_is_sharper ? 2.0f : 1.0f;
   levels.wrap_s = sampler.wrap_s;
   levels.wrap_t = sampler.wrap_t;
 }
@@ -79,7 +80,8 @@ bool has_mipmaps(const TextureSampler& sampler) {
   return sampler.min != TextureFilter::nearest && sampler.min != TextureFilter::linear;
 }
 
-// Size and offset of each level. Returns the number of words.
+/// Sets the size and the offset of each level.
+/// @return  number of words of all levels
 std::size_t lay_out_levels(TextureLevels& levels, const TextureImage& image, bool mipmaps) {
   levels.level[0] = {0, image.width, image.height};
   std::int64_t words = levels.level[0].words();
@@ -104,18 +106,17 @@ void fill_from(const TextureImage& image, std::uint32_t* words, const TextureLev
   }
 }
 
-// Fills the padding after the last texel and the last row with the texels that follow under the wrap mode. If
-// none follow, the padding has weight 0.
-void pad_level(std::uint32_t* words, const TextureLevel& level, const TextureLevels& of) {
+/// Fills the padding after the last texel and the last row with the texels that follow under the wrap mode.
+/// If none follow, the padding has weight 0.
+void pad_level(std::uint32_t* words, const TextureLevel& level, const TextureLevels& levels) {
   std::uint32_t* const first = words + level.first;
   for (std::int32_t y = 0; y < level.height; ++y) {
     std::uint32_t* const row = first + std::ptrdiff_t{y} * level.stride;
-    row[level.width] = of.wrap_s == TextureWrap::repeat ? row[0] : row[level.width - 1];
+    row[level.width] = levels.wrap_s == TextureWrap::repeat ? row[0] : row[level.width - 1];
   }
-  if (level.height > 1)
-    std::copy_n(
-        of.wrap_t == TextureWrap::repeat ? first : first + std::ptrdiff_t{level.height - 1} * level.stride,
-        level.stride, first + std::ptrdiff_t{level.height} * level.stride);
+  if (level.height == 1) return;
+  std::uint32_t* const padding = first + std::ptrdiff_t{level.height} * level.stride;
+  std::copy_n(levels.wrap_t == TextureWrap::repeat ? first : padding - level.stride, level.stride, padding);
 }
 
 std::array<float, 4> color_of(std::uint32_t word) {
@@ -135,14 +136,14 @@ bool is_one_color(const TextureState& texture) {
   return true;
 }
 
-// Magnification: a linear filter yields the mean of the texels around the corner of the image, as in the
-// kernel.
+/// Sample at s = t = 0 under magnification. A linear filter yields the mean of the four texels around the
+/// corner of the image, as in the kernel.
 std::array<float, 4> color_at_origin(const TextureState& texture) {
   const TextureLevels& levels = texture.levels;
   const TextureLevel& level = levels.level[0];
   if (!levels.mag_linear) return color_of(texture.texels[0]);
-  const std::ptrdiff_t left = levels.wrap_s == TextureWrap::repeat ? level.width - 1 : 0,
-                       below = levels.wrap_t == TextureWrap::repeat ? level.height - 1 : 0;
+  const std::ptrdiff_t left = levels.wrap_s == TextureWrap::repeat ? level.width - 1 : 0;
+  const std::ptrdiff_t below = levels.wrap_t == TextureWrap::repeat ? level.height - 1 : 0;
   std::array<float, 4> color;
   for (std::size_t c = 0; c < 4; ++c) {
     const auto component = [&](std::ptrdiff_t at) {

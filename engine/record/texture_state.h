@@ -12,12 +12,12 @@
 namespace tessera::detail {
 
 struct TextureState {
-  std::vector<std::uint32_t> texels;
-  TextureLevels levels;  ///< refers to `texels`
+  std::vector<std::uint32_t> texels;  ///< texels of all levels
+  TextureLevels levels;               ///< refers to `texels`
   TextureSampler sampler;
   int channels = 4;
   std::optional<std::array<float, 4>> one_color;  ///< if all texels are equal
-  std::array<float, 4> at_origin{};  ///< sample at s = t = 0 without derivatives, for draws without texcoords
+  std::array<float, 4> at_origin{};  ///< magnified sample at s = t = 0, for draws without texcoords
 
   bool has_alpha() const { return channels == 2 || channels == 4; }
 };

@@ -1,10 +1,10 @@
-// The floating-point mode of the library, whatever mode the caller has set.
+// The floating-point mode of the library, independent of the caller's mode.
 #pragma once
 
 namespace tessera::detail {
 
-/// Rounding to nearest, denormals kept, exceptions masked until the end of the scope; then the mode before.
-/// Public functions that compute enter it: in the caller's mode a comparison with a NaN may trap.
+/// Sets rounding to nearest, keeps denormals and masks exceptions, until the end of the scope restores the
+/// mode before. Public functions that compute use it: in the caller's mode a comparison with a NaN may trap.
 class FloatingPointMode {
  public:
   FloatingPointMode();

@@ -43,9 +43,9 @@ class FrameProgress {
 
   const std::function<bool(double)>& progress_;
   FrameTrace& trace_;
-  double begin_ = 0, end_ = 0;
-  std::size_t tasks_ = 0;
-  std::atomic<std::size_t> done_ = 0;
+  double begin_ = 0, end_ = 0;             // shares of the frame that are done when the stage begins and ends
+  std::size_t tasks_ = 0;                  // number of tasks of the stage
+  std::atomic<std::size_t> done_ = 0;      // tasks of the stage that have ended
   std::atomic<bool> in_callback_ = false;  // a worker runs the callback; stays true once the frame is stopped
   std::size_t reported_ = 0;               // value of done_ in the last report of this stage
   std::chrono::steady_clock::time_point last_call_{};

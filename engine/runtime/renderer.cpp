@@ -35,8 +35,9 @@ Renderer::Renderer(RendererOptions options) try {
   if (options.threads < 0 || options.threads > kMaxThreads)
     throw Error(ErrorCode::invalid_argument, "Renderer: threads is " + std::to_string(options.threads) +
                                                  ", must be 0 (all cores) to " + std::to_string(kMaxThreads));
-  if (options.tile_size != 0 && options.tile_size != 32 && options.tile_size != 64 &&
-      options.tile_size != 128)
+  const int tile_size = options.tile_size;
+  const bool has_tile_size = tile_size == 32 || tile_size == 64 || tile_size == 128;
+  if (tile_size != 0 && !has_tile_size)
     throw Error(ErrorCode::invalid_argument, "Renderer: tile_size is " + std::to_string(options.tile_size) +
                                                  ", must be 0 (chosen), 32, 64 or 128");
   if (options.bin_memory < kMinBinMemory)

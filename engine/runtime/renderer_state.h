@@ -17,20 +17,24 @@ namespace tessera::detail {
 
 struct FrameContext;
 
-/// Shares of a frame that are done after the steps before the tiles, for progress callbacks.
+// Share of the frame that is done after each step, for progress callbacks. Tiles are the rest.
 inline constexpr double kElementsDone = 0.03;
 inline constexpr double kNormalsDone = 0.08;
 inline constexpr double kVerticesDone = 0.15;
 inline constexpr double kFlatColorsDone = 0.2;
 inline constexpr double kBinsDone = 0.3;
 
-/// Memory of a tile workspace in addition to depth.
+/// Memory that a tile workspace needs in addition to depth.
 struct WorkspaceRequirements {
-  int colors = 1;  ///< tiles
-  bool normals = false, stencil = false, accumulation = false, samples = false;
+  int colors = 1;  ///< number of tiles whose colours are collected before they are stored
+  bool normals = false;
+  bool stencil = false;
+  bool accumulation = false;
+  bool samples = false;
   bool operator==(const WorkspaceRequirements&) const = default;
 };
 
+/// Counts of one worker, in a separate cache line.
 struct alignas(64) WorkerCounts : StripCounts {};
 
 struct RendererState {
@@ -39,22 +43,24 @@ struct RendererState {
   WorkerPool worker_pool;
   FrameCommands commands;
   std::deque<DrawBuffers> draw_buffers;
-  DrawRanges ranges;  ///< tasks of the running geometry pass
+  DrawRanges ranges;  ///< tasks of the current geometry pass
   NormalStage normal_stage;
   BinStage bin_stage;
-  std::vector<TileRange> pending_ranges;  ///< parts still to be rendered, the next one last
+  std::vector<TileRange> pending_ranges;  ///< parts of the frame still to be rendered; the last one is next
   StripScratch strip_scratch;
   ScanOutCache scan_out_cache;
   std::vector<TileWorkspace> workspaces;                       ///< per worker
-  std::optional<WorkspaceRequirements> prepared_requirements;  ///< minimum over all workspaces
+  std::optional<WorkspaceRequirements> prepared_requirements;  ///< met by all workspaces
   std::vector<WorkerCounts> worker_counts;                     ///< per worker
 
-  RendererState(RendererOptions o, InstructionSet i)
-      : options(std::move(o)),
-        isa(i),
+  RendererState(RendererOptions renderer_options, InstructionSet instruction_set)
+      : options(std::move(renderer_options)),
+        isa(instruction_set),
         worker_pool(options.threads, options.executor, options.debug.task_order),
         bin_stage(options.bin_memory, worker_pool, isa) {}
 
+  /// Renders a frame. The recording keeps its commands.
+  /// @param image  may be null
   FrameStats run(FrameRecording& recording, const ImageTarget* image);
 
   /// Logs the counts of a frame.
@@ -69,7 +75,7 @@ struct RendererState {
  private:
   struct GeometryPass {
     FrameStage stage;
-    double done;             ///< share of the frame that is done at its end
+    double done;             ///< share of the frame that is done at the end of the pass
     std::size_t range_size;  ///< vertices or elements per task
   };
 
@@ -82,6 +88,7 @@ struct RendererState {
   void commit_buffers(FrameContext& frame);
   FrameStats finish(FrameContext& frame);
 
+  // Parts of the steps.
   int tile_size_for(const FrameBufferFormat& format) const;
   /// Calls work(draw, first, last) for ranges of count(draw) items of each draw, in parallel.
   template <class Count, class Work>

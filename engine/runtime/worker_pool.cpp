@@ -23,8 +23,8 @@ namespace tbb = oneapi::tbb;
 
 namespace {
 
-/// Threads of oneTBB in a separate arena, so that progress callbacks may use oneTBB, too. Two threads keep
-/// their worker numbers from call to call; with more the assignment varies.
+/// Threads of oneTBB in a separate arena, so that progress callbacks may use oneTBB, too. With two threads,
+/// each keeps its worker number from call to call; with more, the assignment varies.
 class ArenaExecutor : public Executor {
  public:
   explicit ArenaExecutor(int threads) : threads_(threads), arena_(threads) {}
@@ -63,7 +63,8 @@ class TaskOrder {
 
  private:
   std::uint32_t order_;
-  std::size_t count_, step_ = 1;
+  std::size_t count_;
+  std::size_t step_ = 1;
 };
 
 /// Sets a flag until the end of the scope.
@@ -100,7 +101,8 @@ struct WorkerPool::Dispatch {
       invalid_worker.store(worker, std::memory_order_release);
       return;
     }
-    std::size_t ran = 0, s = own;
+    std::size_t ran = 0;
+    std::size_t s = own;
     do {
       ran += run_share(shares[s], worker);
       if (++s == shares.size()) s = 0;

@@ -51,7 +51,8 @@ class WorkerPool {
         {[](const void* self, std::size_t i, int worker) { (*static_cast<const Task*>(self))(i, worker); },
          &task});
   }
-  /// For tests: number of distinct workers that ran tasks since the last call. Nested calls do not count.
+  /// Number of distinct workers that ran tasks since the last call; nested calls do not count.
+  /// Serves only the test of this class.
   int distinct_workers_seen();
 
  private:

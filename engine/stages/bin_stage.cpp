@@ -25,6 +25,45 @@ void bin_elements(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::ui
   bin_triangles(bins, grid, draw, first, last, isa);
 }
 
+/// Inputs of binning, except the polygon modes.
+BinDraw bin_draw(const GeometryDraw& geometry, std::uint32_t first_tile_draw, int samples) {
+  const DrawPlan& plan = *geometry.plan;
+  BinDraw draw;
+  draw.draw = first_tile_draw;
+  draw.topology = plan.topology;
+  draw.point_line_size = plan.topology == Topology::points ? plan.point_size : plan.line_width;
+  draw.samples = samples;
+  draw.vertices = geometry.buffers->vertices.data();
+  draw.indices = geometry.indices();
+  draw.outcodes = geometry.buffers->outcodes.data();
+  draw.any_outcode = geometry.buffers->any_outcode;
+  draw.keep_front = plan.keep_front;
+  draw.keep_back = plan.keep_back;
+  draw.front_is_clockwise = plan.front_is_clockwise;
+  draw.facing = geometry.facing();
+  draw.rect = plan.rect;
+  draw.sample_reach = sample_reach(samples);
+  draw.transform = &plan.transform;
+  draw.positions = geometry.mesh->positions;
+  draw.components = geometry.mesh->components;
+  draw.attributes = geometry.buffers->attributes.data();
+  draw.attribute_count = draw.attribute_stride = plan.varyings.count;
+  return draw;
+}
+
+void set_polygon_modes(BinDraw& draw, const GeometryDraw& geometry) {
+  const DrawPlan& plan = *geometry.plan;
+  PolygonModes& modes = geometry.buffers->modes;
+  modes = {.mode = {plan.mode[0], plan.mode[1]},
+           .line_width = plan.line_width,
+           .point_size = plan.point_size,
+           .triangles = geometry.mesh->triangles_per_polygon(),
+           .boundary = geometry.buffers->boundary.data()};
+  std::uint32_t number = draw.draw;
+  for (const PolygonMode mode : polygon_modes_of(plan)) modes.draw[static_cast<int>(mode)] = number++;
+  draw.modes = &modes;
+}
+
 }  // namespace
 
 void BinStage::begin(const FrameCommands& commands, const TileGrid& grid, int samples) {
@@ -44,48 +83,22 @@ void BinStage::prepare_draws(int samples) {
   draw_rects_.clear();
   for (std::size_t d = 0; d < commands_->geometry.size(); ++d) {
     const GeometryDraw& geometry = commands_->geometry[d];
-    const DrawPlan& plan = *geometry.plan;
-    BinDraw draw;
-    draw.draw = commands_->first_tile_draw[d];
-    draw.topology = plan.topology;
-    draw.size = plan.topology == Topology::points ? plan.point_size : plan.line_width;
-    draw.samples = samples;
-    draw.vertices = geometry.buffers->vertices.data();
-    draw.indices = geometry.indices();
-    draw.outcodes = geometry.buffers->outcodes.data();
-    draw.any_outcode = geometry.buffers->any_outcode;
-    draw.keep_front = plan.keep_front;
-    draw.keep_back = plan.keep_back;
-    draw.front_is_clockwise = plan.front_is_clockwise;
-    draw.facing = geometry.facing();
     if (geometry.has_polygon_offsets()) geometry.buffers->depth_offsets.resize(geometry.mesh->elements);
-    draw.rect = plan.rect;
-    draw.sample_reach = sample_reach(samples);
-    draw.transform = &plan.transform;
-    draw.positions = geometry.mesh->positions;
-    draw.components = geometry.mesh->components;
-    draw.attributes = geometry.buffers->attributes.data();
-    draw.attribute_count = draw.attribute_stride = plan.varyings.count;
-    if (plan.outlines) {
-      PolygonModes& modes = geometry.buffers->modes;
-      modes = {.mode = {plan.mode[0], plan.mode[1]},
-               .line_width = plan.line_width,
-               .point_size = plan.point_size,
-               .triangles = geometry.mesh->triangles_per_polygon(),
-               .boundary = geometry.buffers->boundary.data()};
-      std::uint32_t number = draw.draw;
-      for (const PolygonMode mode : polygon_modes_of(plan)) modes.draw[static_cast<int>(mode)] = number++;
-      draw.modes = &modes;
-    }
+    BinDraw draw = bin_draw(geometry, commands_->first_tile_draw[d], samples);
+    if (geometry.plan->outlines) set_polygon_modes(draw, geometry);
     draws_.push_back(draw);
     draw_rects_.push_back(draw.rect);
   }
+  compute_polygon_values();
+}
+
+void BinStage::compute_polygon_values() {
   polygon_ranges_.split(
       draws_.size(),
       [&](std::size_t d) {
-        return draws_[d].facing != nullptr || commands_->geometry[d].has_polygon_offsets()
-                   ? commands_->geometry[d].mesh->elements
-                   : 0;
+        const GeometryDraw& geometry = commands_->geometry[d];
+        const bool has_values = draws_[d].facing != nullptr || geometry.has_polygon_offsets();
+        return has_values ? geometry.mesh->elements : 0;
       },
       kTrianglesPerBatch);
   worker_pool_.for_each(polygon_ranges_.size(), [&](std::size_t i, int) {
@@ -139,8 +152,8 @@ void BinStage::start_budget() {
 }
 
 void BinStage::fill_one_by_one(const TileRange& tile) {
-  const std::size_t elements = first_element_.back(),
-                    each = std::max<std::size_t>(limit_bytes_ / kMaxBytesPerTriangle, 1);
+  const std::size_t elements = first_element_.back();
+  const std::size_t each = std::max<std::size_t>(limit_bytes_ / kMaxBytesPerTriangle, 1);
   const auto count = static_cast<std::uint32_t>((elements + each - 1) / each);
   batches_.set_streamed(bins_.front(), count,
                         [this, first_tile = tile.first(grid_), elements, each](std::uint32_t b) {
@@ -149,16 +162,17 @@ void BinStage::fill_one_by_one(const TileRange& tile) {
                         });
 }
 
-/// Elements [begin, end) of the frame.
 void BinStage::bin(Bins& bins, std::size_t begin, std::size_t end) const {
   for (std::size_t d = 0; d < draws_.size(); ++d) {
-    const std::size_t low = std::max(begin, first_element_[d]), high = std::min(end, first_element_[d + 1]);
+    const std::size_t low = std::max(begin, first_element_[d]);
+    const std::size_t high = std::min(end, first_element_[d + 1]);
     if (low >= high) continue;
     if (commands_->plans[d]->pixel_rectangle) {
       if (!draws_[d].rect.empty()) bin_pixels(bins, grid_, draws_[d].draw, draws_[d].rect);
-    } else
+    } else {
       bin_elements(bins, grid_, draws_[d], static_cast<std::uint32_t>(low - first_element_[d]),
                    static_cast<std::uint32_t>(high - first_element_[d]), isa_);
+    }
   }
 }
 

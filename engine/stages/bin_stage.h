@@ -25,20 +25,21 @@ struct TileRange {
 
 class BinStage {
  public:
-  /// @param limit  bytes of all bins together. Their index takes another 8 bytes per tile and 8 per 64
-  /// batches
+  /// @param limit  bytes of all bins together. Their index takes more: per tile, 8 bytes, and 8 bytes for
+  ///               every 64 batches
   BinStage(std::size_t limit, WorkerPool& worker_pool, InstructionSet isa)
       : limit_bytes_(limit), worker_pool_(worker_pool), isa_(isa) {}
   BinStage(const BinStage&) = delete;
   BinStage& operator=(const BinStage&) = delete;
 
-  /// Starts a frame. `commands` must stay until the next one. Throws std::bad_alloc.
+  /// Starts a frame. `commands` must stay unchanged until the next frame. Throws std::bad_alloc.
   void begin(const FrameCommands& commands, const TileGrid& grid, int samples);
 
   std::size_t batch_count() const { return batch_count_; }
-  /// Fills the bins of some tiles. False if there are several tiles and their bins would exceed the limit. A
-  /// single tile always succeeds: bins that exceed the limit are made while it is rendered, one batch at a
+  /// Fills the bins of some tiles.
+  /// A single tile always succeeds: bins that exceed the limit are made while it is rendered, one batch at a
   /// time.
+  /// @return  false if there are several tiles and their bins would exceed the limit
   bool fill(const TileRange& tiles, FrameProgress& progress);
   /// The bins filled last, at a constant address. Tiles must be indexed before they are rendered.
   BinBatches& batches() { return batches_; }
@@ -51,7 +52,10 @@ class BinStage {
   };
 
   void prepare_draws(int samples);
+  /// Computes the facing and the depth offset of polygons that need a common one.
+  void compute_polygon_values();
   void start_budget();
+  /// Bins elements [begin, end) of the frame.
   void bin(Bins& bins, std::size_t begin, std::size_t end) const;
   void fill_one_by_one(const TileRange& tile);
 
@@ -64,7 +68,7 @@ class BinStage {
   const FrameCommands* commands_ = nullptr;
   TileGrid grid_{};
   std::vector<BinDraw> draws_;
-  std::vector<PixelRect> draw_rects_;  ///< per draw, in the whole frame
+  std::vector<PixelRect> draw_rects_;  ///< per draw: its rectangle in the whole frame
   /// Per draw, and one past the last: its first element in the frame. A bitmap or an image counts as one
   /// element.
   std::vector<std::size_t> first_element_;

@@ -11,22 +11,10 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
                            bool count_fragments, InstructionSet isa)
     : capture_(capture), grid_(frame.grid), render_(detail::render_tile(isa)) {
   normal_program_.needs_normal = normal_program_.renormalize = true;
-  if (!capture.primitive_ids.empty()) {
-    std::size_t most = 0;
-    for (const GeometryDraw& geometry : commands.geometry) most = std::max(most, geometry.mesh->elements);
-    triangle_ids_.resize(most);
-    std::iota(triangle_ids_.begin(), triangle_ids_.end(), 0u);
-    for (const GeometryDraw& geometry : commands.geometry) {
-      std::vector<std::uint32_t>& numbers = polygon_ids_.emplace_back();
-      const std::size_t each = geometry.mesh->triangles_per_polygon();
-      if (each < 2) continue;
-      numbers.resize(geometry.mesh->elements);
-      for (std::size_t t = 0; t < numbers.size(); ++t) numbers[t] = static_cast<std::uint32_t>(t / each);
-    }
-  }
-  if (capture.draw_ids.empty() && capture.primitive_ids.empty() && capture.normals.empty() &&
-      !count_fragments)
-    return;
+  const bool captures_ids = !capture.draw_ids.empty() || !capture.primitive_ids.empty();
+  const bool has_passes = captures_ids || !capture.normals.empty() || count_fragments;
+  if (!has_passes) return;
+  if (!capture.primitive_ids.empty()) number_primitives(commands.geometry);
   passes_.reserve(4);  // frames of passes point into them
   if (!capture.draw_ids.empty()) add_pass(PassKind::draw_ids, commands, frame, isa);
   if (!capture.primitive_ids.empty()) add_pass(PassKind::primitive_ids, commands, frame, isa);
@@ -34,51 +22,26 @@ CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame
   if (count_fragments) add_pass(PassKind::fragments, commands, frame, isa);
 }
 
+void CaptureStage::number_primitives(std::span<const GeometryDraw> draws) {
+  std::size_t max_elements = 0;
+  for (const GeometryDraw& draw : draws) max_elements = std::max(max_elements, draw.mesh->elements);
+  triangle_ids_.resize(max_elements);
+  std::iota(triangle_ids_.begin(), triangle_ids_.end(), 0u);
+  for (const GeometryDraw& draw : draws) {
+    std::vector<std::uint32_t>& numbers = polygon_ids_.emplace_back();
+    const std::size_t each = draw.mesh->triangles_per_polygon();
+    if (each < 2) continue;
+    numbers.resize(draw.mesh->elements);
+    for (std::size_t t = 0; t < numbers.size(); ++t) numbers[t] = static_cast<std::uint32_t>(t / each);
+  }
+}
+
 void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame,
                             InstructionSet isa) {
   Pass& pass = passes_.emplace_back(Pass{kind, frame, commands.tile_draws, commands.clears, {}});
   pass.ops.reserve(pass.draws.size());  // draws refer to it
-  for (std::size_t i = 0; i < pass.draws.size(); ++i) {
-    TileDraw& draw = pass.draws[i];
-    const std::size_t plan = commands.tile_draw_plan[i];
-    if (kind == PassKind::fragments) {
-      draw.uses_depth = false;
-      draw.ops = nullptr;
-    }
-    if (draw.ops == nullptr) draw.texture = nullptr;                    // otherwise the alpha test needs it
-    if (draw.write_mask == 0 && kind != PassKind::fragments) continue;  // depth alone
-    draw.write_mask = 0xffffffffu;
-    draw.deferred = kind == PassKind::normals;
-    draw.source = ColorSource::constant;
-    draw.packed_color = static_cast<std::uint32_t>(commands.plan_draw[plan]);
-    if (draw.ops != nullptr) {
-      // Only tests decide visibility; operations on colours do not.
-      FragmentOps& ops = pass.ops.emplace_back(*draw.ops);
-      ops.blend = ops.dither = false;
-      ops.logic = LogicOp::copy;
-      draw.ops = &ops;
-      draw.deferred = false;
-      draw.id_output =
-          kind == PassKind::primitive_ids ? TileDraw::IdOutput::primitive : TileDraw::IdOutput::draw;
-    }
-    if (kind == PassKind::normals && draw.texels != nullptr) {
-      // Bitmaps and images have no normals: they count as background.
-      draw.deferred = false;
-      draw.id_output = TileDraw::IdOutput::draw;
-      draw.packed_color = Capture::kNothing;
-    } else if (kind == PassKind::primitive_ids) {
-      draw.source = ColorSource::per_triangle_packed;
-      draw.packed_colors[0] = draw.packed_colors[1] =
-          (polygon_ids_[plan].empty() ? triangle_ids_ : polygon_ids_[plan]).data();
-    } else if (kind == PassKind::normals) {
-      draw.source = ColorSource::per_pixel;
-      draw.captures_normals = true;
-      draw.first_attribute = commands.plans[plan]->varyings.captured_normal;
-      draw.attribute_count = 3;
-      for (int c = 0; c < 3; ++c) draw.fields[c] = static_cast<std::uint8_t>(kNormalX + c);
-      draw.programs[0] = draw.programs[1] = &normal_program_;
-    }
-  }
+  for (std::size_t i = 0; i < pass.draws.size(); ++i)
+    change_output(pass, pass.draws[i], commands, commands.tile_draw_plan[i]);
   for (TileClear& clear : pass.clears) {
     clear.packed_color = Capture::kNothing;
     clear.dithered = false;
@@ -91,12 +54,57 @@ void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const 
   pass.frame.clears = pass.clears.data();
   const PixelPathFrame path_frame = pixel_path_frame(pass.frame, isa);
   for (TileDraw& draw : pass.draws) draw.path = choose_pixel_path(path_frame, draw);
-  pass.frame.accumulation_count = 0;  // colours that come back from there are no draw's
+  pass.frame.accumulation_count = 0;  // colours from the accumulation buffer belong to no draw
+}
+
+void CaptureStage::change_output(Pass& pass, TileDraw& draw, const FrameCommands& commands,
+                                 std::size_t plan) const {
+  if (pass.kind == PassKind::fragments) {
+    draw.uses_depth = false;
+    draw.ops = nullptr;
+  }
+  if (draw.ops == nullptr) draw.texture = nullptr;                       // otherwise the alpha test needs it
+  if (draw.write_mask == 0 && pass.kind != PassKind::fragments) return;  // changes depth or stencil alone
+  draw.write_mask = 0xffffffffu;
+  draw.deferred = pass.kind == PassKind::normals;
+  draw.source = ColorSource::constant;
+  draw.packed_color = static_cast<std::uint32_t>(commands.plan_draw[plan]);
+  if (draw.ops != nullptr) {
+    // Only tests decide visibility; operations on colours do not.
+    FragmentOps& ops = pass.ops.emplace_back(*draw.ops);
+    ops.blend = ops.dither = false;
+    ops.logic = LogicOp::copy;
+    draw.ops = &ops;
+    draw.deferred = false;
+    draw.id_output =
+        pass.kind == PassKind::primitive_ids ? TileDraw::IdOutput::primitive : TileDraw::IdOutput::draw;
+  }
+  if (pass.kind == PassKind::primitive_ids) {
+    draw.source = ColorSource::per_triangle_packed;
+    draw.packed_colors[0] = draw.packed_colors[1] =
+        (polygon_ids_[plan].empty() ? triangle_ids_ : polygon_ids_[plan]).data();
+  }
+  if (pass.kind == PassKind::normals) {
+    if (draw.texels != nullptr) {
+      // Bitmaps and images have no normals: they count as background.
+      draw.deferred = false;
+      draw.id_output = TileDraw::IdOutput::draw;
+      draw.packed_color = Capture::kNothing;
+      return;
+    }
+    draw.source = ColorSource::per_pixel;
+    draw.captures_normals = true;
+    draw.first_attribute = commands.plans[plan]->varyings.captured_normal;
+    draw.attribute_count = 3;
+    for (int c = 0; c < 3; ++c) draw.fields[c] = static_cast<std::uint8_t>(kNormalX + c);
+    draw.programs[0] = draw.programs[1] = &normal_program_;
+  }
 }
 
 std::uint64_t CaptureStage::render_pass(const Pass& pass, int row, int column,
                                         TileWorkspace& workspace) const {
-  const int size = grid_.tile_size, x0 = column * size, y0 = row * size;
+  const int size = grid_.tile_size;
+  const int x0 = column * size, y0 = row * size;
   std::fill_n(workspace.color(), size * size, Capture::kNothing);
   const TileCounts counts = render_(pass.frame, row * grid_.columns() + column, workspace);
   if (pass.kind == PassKind::draw_ids) write_ids(capture_.draw_ids, x0, y0, workspace);
@@ -106,8 +114,9 @@ std::uint64_t CaptureStage::render_pass(const Pass& pass, int row, int column,
 }
 
 void CaptureStage::write_ids(std::span<std::uint32_t> to, int x0, int y0, TileWorkspace& workspace) const {
-  const int size = grid_.tile_size, width = std::min(size, grid_.width_px - x0),
-            height = std::min(size, grid_.height_px - y0);
+  const int size = grid_.tile_size;
+  const int width = std::min(size, grid_.width_px - x0);
+  const int height = std::min(size, grid_.height_px - y0);
   for (int y = 0; y < height; ++y) {
     std::uint32_t* const out =
         to.data() + static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid_.width_px) + x0;
@@ -116,8 +125,9 @@ void CaptureStage::write_ids(std::span<std::uint32_t> to, int x0, int y0, TileWo
 }
 
 void CaptureStage::write_normals(int x0, int y0, TileWorkspace& workspace) const {
-  const int size = grid_.tile_size, width = std::min(size, grid_.width_px - x0),
-            height = std::min(size, grid_.height_px - y0);
+  const int size = grid_.tile_size;
+  const int width = std::min(size, grid_.width_px - x0);
+  const int height = std::min(size, grid_.height_px - y0);
   for (int y = 0; y < height; ++y) {
     float* out = capture_.normals.data() +
                  3 * (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid_.width_px) +

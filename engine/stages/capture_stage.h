@@ -1,8 +1,9 @@
 // Captures: tiles are rendered once more per requested quantity, with the coverage, depth and order of the
-// frame, and with numbers in place of colours.
+// frame, and with numbers or normals in place of colours.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/plan/frame_commands.h"
@@ -19,8 +20,9 @@ class CaptureStage {
 
   bool needs_normals() const { return !capture_.normals.empty(); }
   bool any() const { return !passes_.empty(); }
-  /// Renders a tile once per pass. `load_tests()` restores the tile's depth and stencil from before the
-  /// frame. Returns the number of fragments. Distinct tiles may run concurrently, each in its own workspace.
+  /// Renders a tile once per pass. Distinct tiles may run concurrently, each in its own workspace.
+  /// @param load_tests  load_tests() restores the tile's depth and stencil from before the frame
+  /// @return  number of fragments, if they are counted
   template <class LoadTests>
   std::uint64_t render_tile(int row, int column, TileWorkspace& workspace,
                             const LoadTests& load_tests) const {
@@ -41,7 +43,11 @@ class CaptureStage {
     std::vector<TileClear> clears;
     std::vector<FragmentOps> ops;  ///< tests of the draws with fragment operations
   };
+  void number_primitives(std::span<const GeometryDraw> draws);
   void add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame, InstructionSet isa);
+  /// Makes a draw of a pass write the pass's quantity in place of its colours.
+  /// @param plan  number of its plan
+  void change_output(Pass& pass, TileDraw& draw, const FrameCommands& commands, std::size_t plan) const;
   std::uint64_t render_pass(const Pass& pass, int row, int column, TileWorkspace& workspace) const;
   void write_ids(std::span<std::uint32_t> to, int x0, int y0, TileWorkspace& workspace) const;
   void write_normals(int x0, int y0, TileWorkspace& workspace) const;
@@ -49,7 +55,7 @@ class CaptureStage {
   Capture capture_;
   TileGrid grid_;
   RenderTile* render_;
-  LightingProgram normal_program_;           ///< normalizes normals, without lights
+  LightingProgram normal_program_;           ///< has no lights: only normalizes normals
   std::vector<std::uint32_t> triangle_ids_;  ///< 0, 1, 2, ... up to the longest mesh
   /// Per draw: the polygon of each triangle; empty if each triangle is a polygon.
   std::vector<std::vector<std::uint32_t>> polygon_ids_;

@@ -25,10 +25,10 @@ class StopWatch {
 };
 
 struct FrameContext {
-  FrameContext(FrameRecording& r, const ImageTarget* presented_image, const TileGrid& tile_grid,
+  FrameContext(FrameRecording& frame_recording, const ImageTarget* presented_image, const TileGrid& tile_grid,
                const RendererOptions& options, int workers)
-      : recording(r),
-        target(*r.target),
+      : recording(frame_recording),
+        target(*frame_recording.target),
         image(presented_image),
         grid(tile_grid),
         trace(options.trace ? workers : 0),

@@ -24,8 +24,8 @@ std::array<std::size_t, 3> vertices_of(const MeshArrays& mesh, std::size_t trian
   return {mesh.vertex_at(corners[0]), mesh.vertex_at(corners[1]), mesh.vertex_at(corners[2])};
 }
 
-// Twice the area times the unit normal: the sum over the polygon's triangles, which does not depend on the
-// split.
+/// Twice the area of a polygon times its unit normal. The sum over its triangles does not depend on the
+/// split.
 glm::dvec3 area_normal(const MeshArrays& mesh, std::size_t first, std::size_t last) {
   glm::dvec3 sum(0);
   for (std::size_t t = first; t < last; ++t) {
@@ -43,12 +43,13 @@ void store_unit(const glm::dvec3& v, float* out) {
   for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(n[k]);
 }
 
-using Key = std::array<std::uint32_t, 4>;  // compared as bits: NaN differs from itself as a float
+/// Bits of a position. Positions are compared as bits, because a NaN differs from itself as a float.
+using Key = std::array<std::uint32_t, 4>;
 Key key_at(const MeshArrays& mesh, std::size_t vertex) {
   const float* p = mesh.positions.at(vertex);
-  return std::bit_cast<Key>(
-      std::array<float, 4>{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f,
-                           mesh.components == 4 ? p[3] + 0.0f : 1.0f});  // + 0 turns -0 into 0
+  const float w = mesh.components == 4 ? p[3] : 1.0f;
+  // + 0 turns -0 into 0.
+  return std::bit_cast<Key>(std::array<float, 4>{p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f, w + 0.0f});
 }
 std::uint64_t hash_of(const Key& key) {
   std::uint64_t hash = 0;
@@ -59,7 +60,10 @@ std::uint64_t hash_of(const Key& key) {
   return hash;
 }
 
-constexpr std::size_t kMaxTasks = 64, kMaxPartitions = 64, kItemsPerTask = 1024, kVerticesPerPartition = 4096;
+constexpr std::size_t kMaxTasks = 64;
+constexpr std::size_t kItemsPerTask = 1024;
+constexpr std::size_t kMaxPartitions = 64;
+constexpr std::size_t kVerticesPerPartition = 4096;
 
 /// Size of an open-addressing table: a power of two.
 std::size_t table_slots(std::size_t vertices) { return std::bit_ceil(2 * vertices + 1); }
@@ -82,8 +86,8 @@ void SmoothNormals::PartitionedItems<Item>::reserve(const Partitioning& partitio
   ends.resize(partitioning.tasks * partitioning.partitions);
 }
 
-/// @param for_each_of_task  calls its second argument with the partition and each item of a task. Called
-/// twice
+/// @param for_each_of_task  for_each_of_task(task, add) calls add(partition, item) for each item of a task;
+///                          it is called twice per task
 template <class Item>
 template <class ForEach>
 void SmoothNormals::PartitionedItems<Item>::sort(WorkerPool& worker_pool, const Partitioning& partitioning,
@@ -116,7 +120,7 @@ void SmoothNormals::PartitionedItems<Item>::for_each_in(std::size_t partition, c
     work(items.data()[i]);
 }
 
-// Per vertex: the first vertex at the same position. Open addressing over the bits of the coordinates.
+// Per partition, a table with open addressing holds the first vertex at each position.
 void SmoothNormals::find_first_at_positions(const MeshArrays& mesh, WorkerPool& worker_pool,
                                             const Partitioning& partitioning) {
   std::uint8_t* const partition = partition_.resize(mesh.vertices);
@@ -156,7 +160,8 @@ void SmoothNormals::find_first_at_positions(const MeshArrays& mesh, WorkerPool& 
 
 void SmoothNormals::sum_faces(const MeshArrays& mesh, WorkerPool& worker_pool,
                               const Partitioning& partitioning) {
-  const std::size_t each = mesh.triangles_per_polygon(), faces = mesh.elements / each;
+  const std::size_t each = mesh.triangles_per_polygon();
+  const std::size_t faces = mesh.elements / each;
   glm::dvec3* const areas = areas_.resize(faces);
   partitioning.for_each_range(worker_pool, faces, [&](std::size_t first, std::size_t last) {
     for (std::size_t f = first; f < last; ++f) areas[f] = area_normal(mesh, f * each, (f + 1) * each);
@@ -167,8 +172,8 @@ void SmoothNormals::sum_faces(const MeshArrays& mesh, WorkerPool& worker_pool,
     };
     for (std::size_t f = faces * task / partitioning.tasks; f < faces * (task + 1) / partitioning.tasks;
          ++f) {
-      if (!std::isfinite(areas[f].x + areas[f].y + areas[f].z))
-        continue;  // the polygon will be dropped; its neighbours keep their normals
+      // A polygon that is not finite will be dropped; its neighbours keep their normals.
+      if (!std::isfinite(areas[f].x + areas[f].y + areas[f].z)) continue;
       // The first triangle of a polygon has three of its vertices; each further triangle adds one.
       for (const std::size_t v : vertices_of(mesh, f * each)) add_corner(v, f);
       for (std::size_t t = f * each + 1; t < (f + 1) * each; ++t)

@@ -15,7 +15,7 @@ StridedFloats normals_of(const GeometryDraw& draw) {
                                    : draw.mesh->normals;
 }
 
-// Vertex colours of a batch; `vertex(i)` is the vertex of point i.
+/// Loads the vertex colours of a batch; vertex(i) is the vertex of point i.
 template <class VertexOf>
 void load_vertex_colors(const MeshArrays& mesh, ShadingBatch& batch, std::size_t count,
                         const VertexOf& vertex) {
@@ -23,7 +23,8 @@ void load_vertex_colors(const MeshArrays& mesh, ShadingBatch& batch, std::size_t
     for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexR + c][i] = mesh.color(vertex(i), c);
 }
 
-// Marks vertices with a value that is not finite: their primitives are dropped, as for positions.
+/// Marks vertices with a value that is not finite: their primitives are dropped, as for positions.
+/// @return  the marked outcodes, or 0
 std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t count,
                              std::uint8_t* outcodes) {
   std::uint8_t any = 0;
@@ -41,14 +42,14 @@ std::uint32_t packed_color_of(const GeometryDraw& draw, const ShadingBatch& batc
                              batch.field[kColorG][i], batch.field[kColorB][i]);
 }
 
-// Unlit: vertex colours, clamped like every result of the vertex stage.
+/// Unlit draws: vertex colours, clamped like every result of the vertex stage.
 void copy_vertex_colors(ShadingBatch& batch, std::size_t count) {
   for (int c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < count; ++i)
       batch.field[kColorR + c][i] = std::min(std::max(batch.field[kVertexR + c][i], 0.0f), 1.0f);
 }
 
-// Unlit: colour indices of the vertices, masked like results of index lighting.
+/// Unlit draws: colour indices of the vertices, masked like results of index lighting.
 template <class VertexOf>
 void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size_t count,
                         const VertexOf& vertex) {
@@ -57,10 +58,11 @@ void load_color_indices(const GeometryDraw& draw, ShadingBatch& batch, std::size
         masked_index(*draw.mesh->color_indices.at(vertex(i)), draw.layout->index_modulus());
 }
 
-// Points that are shaded together.
+/// Vertices or triangles that are shaded together.
 struct Batch {
-  std::size_t first, count;
-  bool triangles;             ///< triangles; false: vertices
+  std::size_t first;
+  std::size_t count;
+  bool triangles;             ///< false: vertices
   float alpha[kBatchPoints];  ///< alpha of vertices, if DrawPlan::vertex_alpha
 };
 
@@ -71,10 +73,10 @@ float* varying(const GeometryDraw& draw, std::size_t vertex, int offset) {
   return draw.buffers->attributes.data() + vertex * varying_stride(*draw.plan) + offset;
 }
 
-// Float colours of one face of a batch: first colour, and distance between colours in floats.
+/// Float colours of one face of a batch.
 struct ColorOutput {
   float* first;
-  std::size_t stride;
+  std::size_t stride;  ///< floats from colour to colour
 };
 ColorOutput color_output(const GeometryDraw& draw, const Batch& points, int face) {
   const DrawPlan& plan = *draw.plan;
@@ -87,21 +89,26 @@ void store_indices(const GeometryDraw& draw, const ShadingBatch& batch, const Ba
   for (std::size_t i = 0; i < points.count; ++i) out[i * stride] = batch.field[kColorR][i];
 }
 
-// Colours for fragment operations: r g b a per point.
+/// Alpha of point i, before texturing.
+float alpha_of(const DrawPlan& plan, const Batch& points, std::size_t i, int face) {
+  if (!plan.vertex_alpha) return plan.alpha[face];
+  if (!plan.clamps_vertex_alpha) return points.alpha[i];
+  return std::min(std::max(points.alpha[i], 0.0f), 1.0f);
+}
+
+/// Colours for fragment operations: r g b a per point.
 void store_rgba(const GeometryDraw& draw, const ShadingBatch& batch, const Batch& points, int face) {
   const DrawPlan& plan = *draw.plan;
   auto [out, stride] = color_output(draw, points, face);
   for (std::size_t i = 0; i < points.count; ++i, out += stride) {
     for (int c = 0; c < 3; ++c) out[c] = batch.field[kColorR + c][i];
-    out[3] = !plan.vertex_alpha         ? plan.alpha[face]
-             : plan.clamps_vertex_alpha ? std::min(std::max(points.alpha[i], 0.0f), 1.0f)
-                                        : points.alpha[i];
+    out[3] = alpha_of(plan, points, i, face);
     if (plan.folds_texture())
       out[3] = texture_env_reference(plan.texture.texture, {0, 0, 0, out[3]}, plan.texture.texture.texel)[3];
   }
 }
 
-// Applies a texture of one colour to clamped colours.
+/// Applies a texture of one colour to clamped colours.
 void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto color = texture_env_reference(
@@ -111,7 +118,7 @@ void fold_texture(const DrawTexture& texture, ShadingBatch& batch, std::size_t c
   }
 }
 
-// Stores the colours of a batch in the form that the tiles read.
+/// Stores the colours of a batch in the form that the tiles read.
 void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, int face,
                   InstructionSet isa) {
   const DrawPlan& plan = *draw.plan;
@@ -139,7 +146,7 @@ void light_batch(const GeometryDraw& draw, const LightingProgram& program, Shadi
   store_colors(draw, batch, points, face, isa);
 }
 
-// Lights, textures and stores the colours of a batch whose inputs are loaded.
+/// Lights, textures and stores the colours of a batch whose inputs are loaded.
 void shade_batch(const GeometryDraw& draw, ShadingBatch& batch, const Batch& points, InstructionSet isa) {
   const DrawPlan& plan = *draw.plan;
   if (!plan.lit) {
@@ -163,7 +170,7 @@ Batch batch_of(const GeometryDraw& draw, std::size_t first, std::size_t count, b
   return points;
 }
 
-// Per-pixel lighting: stores its inputs in eye space.
+/// Stores the inputs of per-pixel lighting, in eye space.
 void store_lighting_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t first,
                            std::size_t count) {
   const VaryingLayout& layout = draw.plan->varyings;
@@ -191,7 +198,7 @@ void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t co
     std::copy_n(draw.mesh->texcoords.at(first + i), 2, out);
 }
 
-// Eye-space normals for captures, independent of shading.
+/// Stores eye-space normals for captures, independent of shading.
 void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::size_t count,
                             InstructionSet isa) {
   const StridedFloats normals =
@@ -202,11 +209,12 @@ void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::si
   float* out = varying(draw, first, draw.plan->varyings.captured_normal);
   for (std::size_t i = 0; i < count; ++i, out += stride) {
     const bool is_finite = std::isfinite(eye[0][i]) && std::isfinite(eye[1][i]) && std::isfinite(eye[2][i]);
-    for (std::size_t c = 0; c < 3; ++c) out[c] = is_finite ? eye[c][i] : 0;  // a capture drops no primitive
+    // A capture drops no primitive.
+    for (std::size_t c = 0; c < 3; ++c) out[c] = is_finite ? eye[c][i] : 0;
   }
 }
 
-// Corners of each element, with its provoking vertex at provoking_place().
+/// Lists the corners of each element, with its provoking vertex at provoking_place().
 void list_corners(const GeometryDraw& draw, std::size_t first, std::size_t last) {
   const MeshArrays& mesh = *draw.mesh;
   const auto each = static_cast<std::size_t>(mesh.topology());
@@ -217,11 +225,12 @@ void list_corners(const GeometryDraw& draw, std::size_t first, std::size_t last)
   }
 }
 
-// Boundary of each polygon: the corners of its first triangle, then the corner that each further triangle
-// adds. The start does not depend on the provoking vertex.
+/// Lists the boundary of each polygon: the corners of its first triangle, then the corner that each further
+/// triangle adds. The start does not depend on the provoking vertex.
 void list_boundaries(const GeometryDraw& draw, std::size_t first, std::size_t last) {
   const MeshArrays& mesh = *draw.mesh;
-  const std::size_t each = mesh.triangles_per_polygon(), first_polygon = (first + each - 1) / each;
+  const std::size_t each = mesh.triangles_per_polygon();
+  const std::size_t first_polygon = (first + each - 1) / each;
   std::uint32_t* out = draw.buffers->boundary.data() + first_polygon * (each + 2);
   for (std::size_t begin = first_polygon * each; begin < last; begin += each) {
     for (const std::size_t corner :
@@ -241,21 +250,21 @@ void clear_batch(ShadingBatch& batch) {
 void prepare_geometry(const GeometryDraw& draw) {
   const DrawPlan& plan = *draw.plan;
   DrawBuffers& buffers = *draw.buffers;
-  const std::size_t vertices = draw.mesh->vertices, triangles = draw.mesh->elements;
+  const std::size_t vertices = draw.mesh->vertices;
+  const std::size_t triangles = draw.mesh->elements;
   buffers.vertices.resize(vertices);
   buffers.outcodes.resize(vertices);
-  buffers.attributes.resize(vertices * varying_stride(plan) +
-                            2 * kAttributePadding);  // read in whole vectors
-  for (int face = 0; face < 2; ++face)
-    buffers.face_colors[face].resize(plan.float_colors && plan.has_per_triangle_colors() &&
-                                             face <= (plan.two_sided ? 1 : 0)
-                                         ? 4 * triangles
-                                         : 0);
-  const std::size_t words = plan.source == ColorSource::per_vertex_packed     ? vertices
-                            : plan.source == ColorSource::per_triangle_packed ? triangles
-                                                                              : 0;
-  buffers.packed_colors[0].resize(words);
-  buffers.packed_colors[1].resize(plan.two_sided ? words : 0);
+  // Attributes are read in whole vectors.
+  buffers.attributes.resize(vertices * varying_stride(plan) + 2 * kAttributePadding);
+  const bool has_face_colors = plan.float_colors && plan.has_per_triangle_colors();
+  const std::size_t face_floats = has_face_colors ? 4 * triangles : 0;
+  buffers.face_colors[0].resize(face_floats);
+  buffers.face_colors[1].resize(plan.two_sided ? face_floats : 0);
+  std::size_t packed_words = 0;
+  if (plan.source == ColorSource::per_vertex_packed) packed_words = vertices;
+  if (plan.source == ColorSource::per_triangle_packed) packed_words = triangles;
+  buffers.packed_colors[0].resize(packed_words);
+  buffers.packed_colors[1].resize(plan.two_sided ? packed_words : 0);
   if (draw.generates_indices())
     buffers.indices.resize(static_cast<std::size_t>(draw.mesh->topology()) * triangles);
   buffers.facing.resize(draw.has_polygon_facing() ? triangles : 0);

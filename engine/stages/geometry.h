@@ -1,4 +1,4 @@
-// The geometry of a draw: positions into raster space, packed colors and varyings.
+// Geometry of a draw: transforms vertices to raster space, and computes packed colors and varyings.
 #pragma once
 
 #include <atomic>
@@ -15,19 +15,18 @@ namespace tessera::detail {
 /// Memory of a draw's vertices, kept from frame to frame.
 struct DrawBuffers {
   Scratch<WindowVertex> vertices;
-  Scratch<std::uint8_t> outcodes;
-  Scratch<float> attributes;
-  Scratch<std::uint32_t> packed_colors[2];
-  Scratch<float> face_colors[2];    ///< per face; r g b a per triangle: flat draws with fragment operations
-  Scratch<std::uint32_t> indices;   ///< per element corner: generated, or widened from 16 bits
-  Scratch<Facing> facing;           ///< per triangle, if polygons have several or are outlined
-  Scratch<std::uint32_t> boundary;  ///< vertices of each polygon in order, for outlines
-  /// Per triangle: the offset of its polygon, if polygons have several triangles or are clipped.
-  Scratch<double> depth_offsets;
-  PolygonModes modes;
-  Scratch<float> smooth_normals;          ///< generated, per vertex: for lighting or captures
-  Scratch<float> face_normals;            ///< generated, per triangle
-  std::atomic<bool> any_outcode = false;  ///< a vertex has an outcode
+  Scratch<std::uint8_t> outcodes;           ///< per vertex
+  Scratch<float> attributes;                ///< per vertex: a record of DrawPlan::varyings
+  Scratch<std::uint32_t> packed_colors[2];  ///< per face; per vertex or triangle
+  Scratch<float> face_colors[2];            ///< per face; r g b a per triangle: flat draws with float colours
+  Scratch<std::uint32_t> indices;           ///< per element corner: generated, or widened from 16 bits
+  Scratch<Facing> facing;                   ///< per triangle: see has_polygon_facing()
+  Scratch<std::uint32_t> boundary;          ///< vertices of each polygon in order, for outlines
+  Scratch<double> depth_offsets;            ///< per triangle: see has_polygon_offsets()
+  PolygonModes modes;                       ///< if polygons are outlined
+  Scratch<float> smooth_normals;            ///< generated, per vertex: for lighting or captures
+  Scratch<float> face_normals;              ///< generated, per triangle
+  std::atomic<bool> any_outcode = false;    ///< a vertex has an outcode
 };
 
 /// A draw in the geometry stage.
@@ -41,40 +40,47 @@ struct GeometryDraw {
 
   bool generates_indices() const {
     const Primitive p = mesh->primitive;
-    return mesh->indices16 != nullptr ||
-           (p != Primitive::points && p != Primitive::lines && p != Primitive::triangles);
+    const bool is_list = p == Primitive::points || p == Primitive::lines || p == Primitive::triangles;
+    return mesh->indices16 != nullptr || !is_list;
   }
-  /// Vertices of each element's corners; null: vertices in order. @pre prepare_geometry
+  /// Vertices of each element's corners; null: vertices in order.
+  /// @pre prepare_geometry() has run
   const std::uint32_t* indices() const {
     return generates_indices() ? buffers->indices.data() : mesh->indices;
   }
-  /// Per triangle; null: the area of the triangle decides. @pre classify_polygon_facing
+  /// Per triangle: the facing of its polygon; null: the sign of the triangle's area decides.
+  /// @pre classify_polygon_facing() has run, if the elements are read
   const Facing* facing() const { return has_polygon_facing() ? buffers->facing.data() : nullptr; }
-  /// Per triangle: the depth offset of its polygon; NaN: computed from the triangle. Null: all are. @pre
-  /// offset_polygons
+  /// Per triangle: the depth offset of its polygon; NaN: computed from the triangle. Null: all offsets are
+  /// computed from the triangles.
+  /// @pre offset_polygons() has run, if the elements are read
   const double* depth_offsets() const {
     return has_polygon_offsets() ? buffers->depth_offsets.data() : nullptr;
   }
-  /// Needs assemble_elements().
+  /// The draw needs assemble_elements().
   bool assembles() const { return generates_indices() || plan->outlines || plan->face_normals; }
-  bool wants_smooth_normals() const {
+  bool needs_smooth_normals() const {
     return plan->smooth_normals || (plan->varyings.captured_normal >= 0 && !mesh->normals);
   }
+  /// The triangles of a polygon share a facing: polygons have several triangles, or are outlined.
   bool has_polygon_facing() const { return plan->outlines || mesh->triangles_per_polygon() > 1; }
-  /// @pre process_vertices
+  /// The triangles, outlines or clipped pieces of a polygon share a depth offset.
+  /// @pre process_vertices() has run
   bool has_polygon_offsets() const {
     return plan->has_offset() && (has_polygon_facing() || buffers->any_outcode);
   }
 };
 
-/// Allocates the memory. Throws std::bad_alloc.
+/// Allocates the memory of the functions below. Throws std::bad_alloc.
 void prepare_geometry(const GeometryDraw& draw);
-/// Generates the corners of elements [first, last), and outlines and normals of polygons that begin there.
+/// Generates the corners of elements [first, last), and the outlines and face normals of polygons that begin
+/// in that range.
 /// Distinct ranges may run concurrently.
 void assemble_elements(const GeometryDraw& draw, std::size_t first, std::size_t last);
 /// Transforms and shades vertices [first, last). Distinct ranges may run concurrently.
 void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t last, InstructionSet isa);
-/// Colours of triangles [first, last). @pre plan->has_per_triangle_colors()
+/// Computes the colours of triangles [first, last). Distinct ranges may run concurrently.
+/// @pre plan->has_per_triangle_colors()
 void compute_flat_colors(const GeometryDraw& draw, std::size_t first, std::size_t last, InstructionSet isa);
 
 }  // namespace tessera::detail

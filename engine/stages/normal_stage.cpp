@@ -13,9 +13,10 @@ constexpr std::size_t kMaxSmallMeshSize = 4096;  // vertices or elements
 void NormalStage::run(std::span<const GeometryDraw> draws, WorkerPool& worker_pool, FrameProgress& progress,
                       double done) {
   small_.clear();
-  std::size_t most_vertices = 0, most_elements = 0;
+  std::size_t max_vertices = 0;
+  std::size_t max_elements = 0;
   for (const GeometryDraw& draw : draws) {
-    if (!draw.wants_smooth_normals()) continue;
+    if (!draw.needs_smooth_normals()) continue;
     const MeshArrays& mesh = *draw.mesh;
     float* const normals = draw.buffers->smooth_normals.resize(3 * mesh.vertices);
     if (std::max(mesh.vertices, mesh.elements) > kMaxSmallMeshSize) {
@@ -25,15 +26,14 @@ void NormalStage::run(std::span<const GeometryDraw> draws, WorkerPool& worker_po
     }
     small_.push_back(&draw);
     if (mesh.topology() != Topology::triangles) continue;  // points and lines have normal 0 0 0
-    most_vertices = std::max(most_vertices, mesh.vertices);
-    most_elements = std::max(most_elements, mesh.elements);
+    max_vertices = std::max(max_vertices, mesh.vertices);
+    max_elements = std::max(max_elements, mesh.elements);
   }
   if (small_.empty()) return;
   const std::size_t workers = worker_pool.workers_for(small_.size());
   while (generators_.size() < workers) generators_.emplace_back();
-  for (std::size_t k = 0; k < workers; ++k)
-    generators_[k].normals.reserve(most_vertices,
-                                   most_elements);  // any worker may get the largest mesh
+  // Any worker may get the largest mesh.
+  for (std::size_t k = 0; k < workers; ++k) generators_[k].normals.reserve(max_vertices, max_elements);
   progress.begin_stage(FrameStage::vertices, done, small_.size());
   worker_pool.for_each(small_.size(), [&](std::size_t i, int worker) {
     const GeometryDraw& draw = *small_[i];

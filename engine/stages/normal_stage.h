@@ -25,8 +25,8 @@ class NormalStage {
     SmoothNormals normals;
     WorkerPool serial_pool{1};
   };
-  std::vector<Generator> generators_;  // per worker that was ever needed
-  std::vector<const GeometryDraw*> small_;
+  std::vector<Generator> generators_;       // one per worker that was ever needed
+  std::vector<const GeometryDraw*> small_;  // draws with small meshes
 };
 
 }  // namespace tessera::detail

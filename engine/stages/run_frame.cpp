@@ -74,8 +74,9 @@ int RendererState::tile_size_for(const FrameBufferFormat& format) const {
   if (options.tile_size != 0) return options.tile_size;
   if (format.samples > 1) return 64;  // the samples of a larger tile exceed the cache
   // Large tiles repeat less setup; small tiles keep more threads busy.
+  constexpr int kMinLargeTilesPerThread = 16;
   const double pixels = static_cast<double>(format.width) * format.height;
-  return pixels / worker_pool.threads() >= 64 * 128 * 128 / 4 ? 128 : 64;
+  return pixels / worker_pool.threads() >= kMinLargeTilesPerThread * 128 * 128 ? 128 : 64;
 }
 
 void RendererState::plan(FrameContext& frame) {

@@ -5,7 +5,8 @@
 namespace tessera::detail {
 namespace {
 
-constexpr std::size_t kVerticesPerTask = 512, kElementsPerTask = 4096;
+constexpr std::size_t kVerticesPerTask = 512;
+constexpr std::size_t kElementsPerTask = 4096;
 
 }  // namespace
 

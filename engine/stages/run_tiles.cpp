@@ -20,12 +20,15 @@ double done_after(int tiles, const FrameStats& stats) {
 
 /// Pixels of a strip in the frame, origin lower left.
 Rect strip_rect(const TileStrip& strip, const TileGrid& grid) {
-  const int size = grid.tile_size, x0 = strip.first_column * size, y0 = strip.row * size;
-  const int x1 = std::min((strip.last_column + 1) * size, grid.width_px),
-            y1 = std::min(y0 + size, grid.height_px);
+  const int size = grid.tile_size;
+  const int x0 = strip.first_column * size;
+  const int y0 = strip.row * size;
+  const int x1 = std::min((strip.last_column + 1) * size, grid.width_px);
+  const int y1 = std::min(y0 + size, grid.height_px);
   return {x0, grid.height_px - y1, x1 - x0, y1 - y0};
 }
 
+/// Halves the rows, or the columns of a single row.
 /// @pre several tiles
 std::array<TileRange, 2> split_range(const TileRange& tiles) {
   TileRange first = tiles, second = tiles;

@@ -13,8 +13,7 @@ namespace tessera::detail {
 namespace {
 
 bool covers_frame(const TileClear& clear, const TileGrid& grid) {
-  return clear.rect.x0 == 0 && clear.rect.y0 == 0 && clear.rect.x1 == grid.width_px &&
-         clear.rect.y1 == grid.height_px;
+  return clear.rect == PixelRect{0, 0, grid.width_px, grid.height_px};
 }
 
 constexpr std::size_t kLoadClasses = 4 * 64;
@@ -33,11 +32,11 @@ std::uint8_t load_class_of(std::uint64_t triangles) {
 void distribute(const std::vector<TileStrip>& sorted, std::size_t begin, std::size_t end, std::size_t shares,
                 std::vector<TileStrip>& distributed) {
   // With fewer strips than shares, only the shares from begin % shares on receive one.
-  const std::size_t served = std::min(end - begin, shares),
-                    first_share = served < shares ? begin % shares : 0;
+  const std::size_t served = std::min(end - begin, shares);
+  const std::size_t first_share = served < shares ? begin % shares : 0;
   for (std::size_t k = 0, next = begin; k < served; ++k) {
-    const std::size_t share = (first_share + k) % shares,
-                      first_place = begin + (share + shares - begin % shares) % shares;
+    const std::size_t share = (first_share + k) % shares;
+    const std::size_t first_place = begin + (share + shares - begin % shares) % shares;
     std::size_t at = first_of_share(sorted.size(), shares, share) + first_place / shares;
     for (std::size_t place = first_place; place < end; place += shares) distributed[at++] = sorted[next++];
   }
@@ -61,19 +60,22 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
   if (image == nullptr) return;
   target_region_ = target_region(*image);
   const Palette* const palette = target.layout.index ? &target.palette : nullptr;
-  const PixelOrder order = image->order == PixelOrder::rgba8 ? PixelOrder::rgba8 : PixelOrder::bgra8;
-  if (scan_out_cache.scan_out) scan_out_cache.scan_out->set(target.layout, palette, order);
-  else scan_out_cache.scan_out.emplace(target.layout, palette, order, isa);
-  // If only the picture is needed and the frame starts with a clear of all of it, tiles without triangles
-  // bypass tile memory.
-  copies_cleared_row_ =
-      !capture.any() && !commands.attachments.any_stores() && !commands.attachments.color.loads() &&
-      !commands.clears.empty() && commands.accumulations.empty() &&
+  if (scan_out_cache.scan_out) scan_out_cache.scan_out->set(target.layout, palette, image->order);
+  else scan_out_cache.scan_out.emplace(target.layout, palette, image->order, isa);
+  // If only the picture is needed and its background is one colour, tiles without triangles bypass tile
+  // memory.
+  const bool only_picture_needed = !capture.any() && !commands.attachments.any_stores();
+  const bool background_is_cleared = !commands.clears.empty() && !commands.attachments.color.loads();
+  const bool clears_are_uniform =
       std::all_of(commands.clears.begin(), commands.clears.end(),
                   [&](const TileClear& c) { return covers_frame(c, frame.grid) && !c.dithered; });
+  const bool background_is_uniform =
+      background_is_cleared && clears_are_uniform && commands.accumulations.empty();
+  copies_cleared_row_ = only_picture_needed && background_is_uniform;
   if (!copies_cleared_row_) return;
   std::uint32_t word = 0;
-  for (const TileClear& clear : commands.clears) word = clear.color ? clear.packed_color : word;
+  for (const TileClear& clear : commands.clears)
+    if (clear.color) word = clear.packed_color;
   std::uint32_t words[kMaxTileSize];
   std::fill(std::begin(words), std::end(words), word);
   scan_out_cache.cleared_row.resize(4 * static_cast<std::size_t>(frame.grid.width_px));
@@ -89,19 +91,22 @@ void TileStage::build_strips(const TileRange& tiles, const WorkerPool& workers, 
     return copies_cleared_row_ && batches.known_empty(row * grid.columns() + column);
   };
   // Tiles that share a cache line of a plane go to one worker.
-  const int length = commands_.attachments.any_stores() ? kLinePixels / grid.tile_size : 1;
-  std::array<std::uint32_t, kLoadClasses>
-      next{};  // per class: number of strips, then place of its next strip
+  const int tiles_per_line = commands_.attachments.any_stores() ? kLinePixels / grid.tile_size : 1;
+  // Per class: number of strips, later the place of its next strip in `sorted`.
+  std::array<std::uint32_t, kLoadClasses> next{};
   memory.strips.clear();
   for (int row = tiles.y0; row < tiles.y1; ++row) {
     for (int column = tiles.x0, end; column < tiles.x1; column = end) {
       const bool cleared = is_cleared(row, column);
-      end = std::min((column / length + 1) * length, tiles.x1);
+      end = std::min((column / tiles_per_line + 1) * tiles_per_line, tiles.x1);
       while (cleared && end < tiles.x1 && is_cleared(row, end)) ++end;
       std::uint64_t triangles = 0;
-      for (int c = column; c < end; ++c) triangles += batches.triangles(row * grid.columns() + c);
-      const auto small = [](int number) { return static_cast<std::int16_t>(number); };
-      memory.strips.push_back({small(row), small(column), small(end - 1), cleared, load_class_of(triangles)});
+      for (int c = column; c < end; ++c) triangles += batches.element_count(row * grid.columns() + c);
+      memory.strips.push_back({.row = static_cast<std::int16_t>(row),
+                               .first_column = static_cast<std::int16_t>(column),
+                               .last_column = static_cast<std::int16_t>(end - 1),
+                               .cleared = cleared,
+                               .load_class = load_class_of(triangles)});
       ++next[memory.strips.back().load_class];
     }
   }
@@ -135,11 +140,12 @@ void TileStage::render(const TileStrip& strip, TileWorkspace& workspace, StripCo
 
 void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, StripCounts& counts) const {
   const TileGrid& grid = frame_.grid;
-  const int size = grid.tile_size, x0 = column * size, y0 = row * size;
+  const int size = grid.tile_size;
+  const int x0 = column * size, y0 = row * size;
   const bool shown = !intersect(target_region_, {x0, y0, x0 + size, y0 + size}).empty();
   if (!shown && !commands_.attachments.any_stores() && !capture_.any()) return;
-  const TilePlace color_place{x0, y0, size, 0},
-      depth_place{x0, y0, size, stored_depth_from_key(target_.depth_format, 0)};
+  const TilePlace color_place{x0, y0, size, 0};
+  const TilePlace depth_place{x0, y0, size, stored_depth_from_key(target_.depth_format, 0)};
   auto* depth_words = reinterpret_cast<std::uint32_t*>(workspace.depth());
   auto* stencil_words =
       commands_.attachments.stencil.used() ? reinterpret_cast<std::uint32_t*>(workspace.stencil()) : nullptr;
@@ -200,7 +206,8 @@ void TileStage::load_accumulation(const TilePlace& place, const AccumulatedPixel
   for (std::size_t c = 0; c < 4; ++c) {
     auto* const words = reinterpret_cast<std::uint32_t*>(levels[c]);
     load(commands_.attachments.accumulation, target_.accumulation[c], words, place);
-    const int bits = target_.format.accumulation_bits, pixels = place.tile_size * place.tile_size;
+    const int bits = target_.format.accumulation_bits;
+    const int pixels = place.tile_size * place.tile_size;
     for (int i = 0; i < pixels; ++i) levels[c][i] = accumulation_level_from_stored(words[i], bits);
   }
 }

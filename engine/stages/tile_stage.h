@@ -17,9 +17,11 @@
 
 namespace tessera::detail {
 
-/// Neighbouring tiles of a row, rendered by one worker. Small: strips are sorted serially.
+/// Neighbouring tiles of a row, rendered by one worker. Compact, because strips are sorted serially.
 struct TileStrip {
-  std::int16_t row = 0, first_column = 0, last_column = 0;
+  std::int16_t row = 0;
+  std::int16_t first_column = 0;
+  std::int16_t last_column = 0;
   bool cleared = false;         ///< no triangle touches the tiles: they show the last clear
   std::uint8_t load_class = 0;  ///< class of the number of triangles; monotonic
 };
@@ -28,7 +30,7 @@ static_assert(kMaxFrameBufferSize / kMinTileSize <= std::numeric_limits<std::int
 /// The strips of a frame, and working memory. Kept from frame to frame.
 struct StripScratch {
   std::vector<TileStrip> sorted;  ///< by decreasing load
-  std::vector<TileStrip> strips;  ///< row by row, then in the order of build_strips()
+  std::vector<TileStrip> strips;  ///< result of build_strips()
 };
 
 struct StripCounts {
@@ -45,8 +47,8 @@ struct ScanOutCache {
 
 class TileStage {
  public:
-  /// Writes the pixels of `image`, which may be null, and the planes of `target`. All arguments must outlive
-  /// it.
+  /// Tiles write the pixels of `image`, which may be null, and the planes of `target`. All arguments must
+  /// outlive the stage.
   TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target,
             const ImageTarget* image, const CaptureStage& capture, ScanOutCache& scan_out_cache,
             InstructionSet isa);
@@ -56,10 +58,9 @@ class TileStage {
   /// accumulation are rarely stored: tile by tile.
   int buffered_tiles() const { return buffered_tiles_; }
   /// Orders strips for WorkerPool::for_each().
-  /// - Within a worker's share by decreasing number of triangles (to within 25 %), so that long strips start
-  /// first.
+  /// - Within a worker's share, the number of triangles decreases (to within 25 %): long strips start first.
   /// - Shares have equal numbers of strips of every load class, up to one.
-  /// - Strips of a class within a share are neighbours, and mostly the same as in a similar frame before.
+  /// - Strips of a class within a share are neighbours, and mostly the same from frame to frame.
   /// - The order changes no bit.
   /// @param memory  receives `strips`; `sorted` is overwritten
   void build_strips(const TileRange& tiles, const WorkerPool& workers, StripScratch& memory) const;

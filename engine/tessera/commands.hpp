@@ -39,12 +39,12 @@ struct PixelImage {
 
 /// Clears the buffers that are given a value. Ignores masks; colours are dithered like draws.
 struct Clear {
-  std::optional<Color>
-      color{};  ///< 0 to 1. Colour-index buffers: the nearest palette entry, unless index is set
+  /// Components 0 to 1. Colour-index buffers: the nearest palette entry, unless `index` is set.
+  std::optional<Color> color{};
   std::optional<std::uint32_t> index{};    ///< colour-index buffers only: below 2^color_bits
   std::optional<double> depth{};           ///< 0 to 1
   std::optional<std::uint32_t> stencil{};  ///< below 2^stencil_bits
-  std::optional<Color> accumulation{};     ///< -1 to 1
+  std::optional<Color> accumulation{};     ///< components -1 to 1
   std::optional<Rect> scissor{};           ///< absent: whole buffer
 };
 
@@ -61,14 +61,17 @@ struct Accum {
 /// - Rows from the top, width * height pixels. Borrowed until the frame is finished or reset.
 /// - Cost: one more pass over the tiles per non-empty span.
 /// - MSAA buffers: evaluated at pixel centres; points and lines as with one sample.
-/// - Blended draws: the last one that passed the tests. Accumulation is ignored.
+/// - Where draws are blended, the last one that passed the tests counts. Accumulation is ignored.
 struct Capture {
   static constexpr std::uint32_t kNothing = 0xffffffffu;  ///< no draw gave this pixel its colour
 
-  std::span<std::uint32_t> draw_ids{};  ///< number of the draw in the frame, from 0, with bitmaps and images
-  std::span<std::uint32_t> primitive_ids{};  ///< number of the primitive in its mesh; bitmaps and images: 0
-  /// x y z per pixel: the interpolated normal, eye space, length 1. Meshes without normals: means of the face
-  /// normals. 0 0 0 for background, bitmaps and images, and where normals cancel.
+  /// Number of the draw in the frame, from 0; bitmaps and images count as draws.
+  std::span<std::uint32_t> draw_ids{};
+  /// Number of the primitive in its mesh, from 0; 0 for bitmaps and images.
+  std::span<std::uint32_t> primitive_ids{};
+  /// x y z per pixel: the interpolated normal, eye space, length 1.
+  /// - Meshes without normals: means of the face normals.
+  /// - 0 0 0 for background, bitmaps and images, and where normals cancel.
   std::span<float> normals{};
 };
 

@@ -47,7 +47,7 @@ class TESSERA_API Frame {
   Frame& operator=(Frame&&) noexcept;
 
   // State of the draws that follow. Initially: identity matrices, one default Light, a default LightModel.
-  // Throw Error for values out of range or not finite, or out of memory.
+  // These functions throw Error for values that are out of range or not finite, or if memory runs out.
 
   void set_camera(const Camera& camera);
   void set_lights(std::span<const Light> lights);
@@ -64,7 +64,8 @@ class TESSERA_API Frame {
   /// @throws Error  for arrays that do not fit together, values or indices out of range, a moved-from
   ///                texture, or a planar shadow that does not exist
   void draw(const Mesh& mesh, const DrawState& state = {});
-  /// Camera and viewport do not apply; pixels outside the frame buffer are dropped.
+  /// Draws a bitmap or an image. Camera and viewport do not apply; pixels outside the frame buffer are
+  /// dropped.
   /// @throws Error  for null pointers, and for sizes or values out of range
   void draw_bitmap(const Bitmap& bitmap, const FragmentState& state = {});
   void draw_image(const PixelImage& image, const FragmentState& state = {});

@@ -60,8 +60,8 @@ TESSERA_API std::vector<Color> default_palette(int color_bits);
 /// Borrowed from the frame buffer; valid until the next frame is finished or the frame buffer is destroyed.
 struct PlaneView {
   const std::uint8_t* bits = nullptr;
-  int width = 0, height = 0;  ///< pixels
-  std::ptrdiff_t stride_bytes = 0;
+  int width = 0, height = 0;        ///< pixels
+  std::ptrdiff_t stride_bytes = 0;  ///< from a row to the one below
 };
 
 /// The caller's memory for a picture, 4 bytes per pixel. Alpha is 255, or the stored alpha.
@@ -86,7 +86,10 @@ class TESSERA_API FrameBuffer {
   /// - Size: memory_bytes(format). Alignment: 64 bytes.
   /// - Order: planes of colour, depth, stencil, accumulation, each laid out as plane() returns it.
   /// - After finish() the memory holds the buffers that the frame kept; other buffers are unspecified.
+  /// @throws Error  as above, and for memory that is too small or not aligned
   FrameBuffer(FrameBufferFormat format, std::span<std::byte> memory);
+  /// Bytes that the planes of this format take.
+  /// @throws Error  for sizes, bits or palettes out of range
   static std::size_t memory_bytes(const FrameBufferFormat& format);
   ~FrameBuffer();
   FrameBuffer(FrameBuffer&&) noexcept;
@@ -111,9 +114,9 @@ class TESSERA_API FrameBuffer {
   /// @throws Error  if there is no such plane, or the last frame did not keep the buffer
   PlaneView plane(Buffer buffer, int k) const;
 
-  // Reading back: serial, rows from the top.
-  // Throw Error for a size other than width * height pixels, and for a buffer that the format lacks or that
-  // the last frame did not keep.
+  // Functions that read the planes back: serial, rows from the top.
+  // They throw Error for a size other than width * height pixels, and for a buffer that the format lacks or
+  // that the last frame did not keep.
 
   /// The picture that a display shows, through the palette.
   void read_color(const ImageTarget& target) const;

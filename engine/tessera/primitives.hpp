@@ -45,7 +45,8 @@ constexpr std::string_view name_of_mesh(Primitive primitive) {
   return "";
 }
 
-/// Whether this number of corners (indices, or vertices without them) makes whole primitives; 0 does.
+/// Whether a number of corners makes whole primitives; true for 0. Corners are indices, or vertices if a mesh
+/// has no indices.
 constexpr bool makes_whole_primitives(Primitive primitive, std::size_t corners) {
   switch (primitive) {
     case Primitive::points: return true;

@@ -39,7 +39,7 @@ struct FrameStats {
   int tile_size = 0;                ///< pixels
   std::uint64_t fragments = 0;      ///< pixels covered before any test; with DebugOptions::count_fragments
   std::uint64_t shaded_pixels = 0;  ///< colour evaluations
-  // Wall time per stage, seconds. Tiles include scan-out and store.
+  // Wall time per stage, seconds. tile_seconds includes scan-out and store.
   double plan_seconds = 0;
   double vertex_seconds = 0;
   double binning_seconds = 0;
@@ -88,7 +88,7 @@ struct RendererOptions {
   std::shared_ptr<Executor> executor{};  ///< absent: oneTBB
   /// Progress callback; `done` rises to 1 in frames that have tiles to render. Returns whether to go on.
   /// - Called at the end of each stage, and at most about 100 times per second in between.
-  /// - Runs on any worker thread, once at a time per renderer.
+  /// - Runs on any worker thread, one call at a time per renderer.
   /// - May record frames and finish them with other renderers; finishing with its own throws Error.
   /// - Must not modify, reset or destroy the running frame.
   /// - If it returns false, finish() throws Cancelled. If it throws, finish() rethrows (std::bad_alloc as

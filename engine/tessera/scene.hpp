@@ -63,7 +63,7 @@ struct Camera {
 };
 
 // Projections. `far` may be infinity in perspective() and frustum().
-// Throw Error for an empty volume, or if an element of the matrix would not be finite.
+// They throw Error for an empty volume, or if an element of the matrix would not be finite.
 
 TESSERA_API Matrix perspective(double fovy_degrees, double aspect, double near, double far,
                                bool reversed = false);

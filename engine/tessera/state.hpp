@@ -43,8 +43,8 @@ struct StencilFace {
   std::uint32_t write_mask = 255;
 };
 struct StencilState {
-  StencilFace front{};                ///< also of points, lines, bitmaps and images
-  std::optional<StencilFace> back{};  ///< absent: as front
+  StencilFace front{};                ///< front faces, points, lines, bitmaps and images
+  std::optional<StencilFace> back{};  ///< back faces; absent: as front
 };
 
 /// Blending with the stored colour: computed in floats, clamped to 0 to 1, rounded once.

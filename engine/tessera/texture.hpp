@@ -41,8 +41,8 @@ struct TextureSampler {
 };
 
 /// A texture: a copy of the texels and, for filters with mipmaps, of all smaller levels.
-/// - Each level is half the size of the one before, rounded down; a texel is the rounded mean of
-///   the texels of that level which it covers.
+/// - Each level is half the size of the one before, rounded down. Its texels are rounded means of the texels
+///   that they cover there.
 /// - Level of detail by GL 2.1, equation 3.14, from exact derivatives.
 /// - Memory: 4 bytes per texel, a third more with mipmaps.
 /// - Draws borrow it: it must outlive the frame's finish or reset. It may be shared by threads.

@@ -30,13 +30,13 @@ TESSERA_API std::string_view version();
 /// Kinds of errors. Values are stable; new enumerators are appended.
 enum class ErrorCode : std::uint8_t {
   invalid_argument,     ///< a value is out of range, or values do not fit together
-  incompatible_format,  ///< the frame buffer's format lacks what is asked for
-  invalid_state,     ///< an object that was moved from, a buffer that was not kept, a call at the wrong time
-  unsupported,       ///< this build or machine cannot do it
-  out_of_memory,     ///< an allocation failed
-  cancelled,         ///< a progress callback stopped the frame
-  executor_failure,  ///< an Executor broke its contract
-  internal           ///< a defect of the library
+  incompatible_format,  ///< the frame buffer lacks a buffer or mode that the call needs
+  invalid_state,        ///< a moved-from object, a buffer that was not kept, a call at the wrong time
+  unsupported,          ///< this build or machine cannot do it
+  out_of_memory,        ///< an allocation failed
+  cancelled,            ///< a progress callback stopped the frame
+  executor_failure,     ///< an Executor broke its contract
+  internal              ///< a defect of the library
 };
 
 /// The one exception type of the library.

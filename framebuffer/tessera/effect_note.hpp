@@ -34,16 +34,16 @@ enum class Effect : std::uint8_t {
   generated_normals,    ///< normals of a mesh that has none
   shading,              ///< where and how often colours are evaluated
   light,                ///< one light on one material
-  light_attenuation,    ///< its attenuation over distance
-  light_spot,           ///< its cone
-  light_highlight,      ///< its specular highlight
-  light_ambient,        ///< its ambient part, where it differs between points
+  light_attenuation,    ///< attenuation of a light over distance
+  light_spot,           ///< cone of a light
+  light_highlight,      ///< specular highlight of a light
+  light_ambient,        ///< ambient part of a light, where it differs between points
   light_tracked_colors  ///< vertex colours in place of the material's diffuse or specular colour
 };
 
 /// Why an effect runs or is skipped, or which variant of it runs. New enumerators are appended.
 enum class EffectReason : std::uint8_t {
-  requested,                  ///< active: the state asks for it
+  requested,                  ///< active: the state requests it
   disabled,                   ///< the state turns it off
   no_depth_buffer,            ///< the frame buffer has no depth buffer
   passes_and_writes_nothing,  ///< a test that always passes and writes nothing
@@ -53,14 +53,14 @@ enum class EffectReason : std::uint8_t {
   rgb_buffer,                 ///< the frame buffer holds RGB
   no_pixel_can_change,        ///< tests, masks or rectangles leave no pixel to change
   no_color_stored,            ///< no colour plane can change
-  color_and_alpha_unused,     ///< its result reaches neither a stored colour nor a test
-  no_effect,                  ///< it would leave every colour as it is
+  color_and_alpha_unused,     ///< the result reaches neither a stored colour nor a test
+  no_effect,                  ///< every colour would stay as it is
   not_in_mesh,                ///< the mesh lacks the vertex attribute
   no_faces,                   ///< points and lines have no faces to derive normals from
-  draw_is_lit,                ///< lit draws ignore it
-  draw_has_color_indices,     ///< colour indices take its place
+  draw_is_lit,                ///< lit draws ignore the effect
+  draw_has_color_indices,     ///< colour indices replace it
   color_material_none,        ///< DrawState::color_material is none
-  material_has_index_ramp,    ///< index lighting takes its place
+  material_has_index_ramp,    ///< index lighting replaces it
   independent_of_surface,     ///< no light depends on the surface: the colour is a constant
   folded,                     ///< applied in advance to the colours of vertices, faces or the draw
   one_color_per_pixel,        ///< one colour, applied at each pixel
@@ -76,10 +76,10 @@ enum class EffectReason : std::uint8_t {
   interpolated_per_pixel,     ///< colours of vertices, interpolated once per visible pixel
   face_normals,               ///< one normal per face
   mean_normals,               ///< area-weighted means over the faces at each position
-  black,                      ///< all its products with the material are black
+  black,                      ///< all products of light and material are black
   constant_ambient,           ///< only a constant ambient part remains, added in advance
-  directional,                ///< direction is the same everywhere
-  positional,                 ///< direction differs between points
+  directional,                ///< the light's direction is the same everywhere
+  positional,                 ///< the light's direction differs between points
   unit_attenuation,           ///< attenuation factors are 1, 0, 0
   cutoff_180,                 ///< the spot cutoff is 180 degrees
   black_specular,             ///< the specular product of light and material is black

@@ -43,8 +43,8 @@ void BandwidthKernel::run() {
   });
 }
 
-// The asm statement counts as a use of everything written and of the search result, so that the compiler
-// keeps all of it.
+// The asm statement counts as a use of all written memory and of the search result, so the compiler removes
+// neither stores nor loads.
 void BandwidthKernel::move(std::size_t part, int turn) {
   void* const memory = memory_[part].data();
   const void* touched = memory;

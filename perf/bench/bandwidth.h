@@ -15,10 +15,10 @@ class BandwidthKernel {
  public:
   /// @param roofline  not Roofline::none
   /// @param threads   1 or more
-  /// @param bytes     size of the memory of all threads together; for copies, source plus destination.
-  ///                  Each thread gets at least one byte. Roofline::l1_stores ignores it: 16 KiB per thread
-  /// @param moved     approximate bytes per run(): the memory at least once, at most a million times.
-  ///                  Roofline::l1_stores ignores it: 20,000 times
+  /// @param bytes     memory of all threads together, at least a byte each; for copies, source plus
+  ///                  destination. Ignored by Roofline::l1_stores, which uses 16 KiB per thread
+  /// @param moved     approximate bytes per run(), rounded to 1 to 1,000,000 passes over the memory.
+  ///                  Ignored by Roofline::l1_stores, which makes 20,000 passes
   BandwidthKernel(Roofline roofline, int threads, std::uint64_t bytes, std::uint64_t moved);
 
   void run();

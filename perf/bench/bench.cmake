@@ -12,11 +12,16 @@ endif()
 list(APPEND tessera_bench_sources perf/rivals/literal_shaders.cpp)
 add_library(tessera_bench_parts OBJECT ${tessera_bench_sources})
 # Internals that the library does not export: the worker pool and plane stores.
-tessera_add_objects(tessera_bench_internals engine/runtime/floating_point_mode.cpp engine/runtime/worker_pool.cpp framebuffer/bit_transpose.cpp framebuffer/bitplane.cpp framebuffer/prefetch_lines.cpp framebuffer/instruction_set.cpp)
-add_executable(tessera_bench perf/bench/main.cpp engine/program/cli/machine_text.cpp $<TARGET_OBJECTS:tessera_bench_internals> $<TARGET_OBJECTS:tessera_bench_parts>)
+tessera_add_objects(tessera_bench_internals
+  engine/runtime/floating_point_mode.cpp engine/runtime/worker_pool.cpp framebuffer/bit_transpose.cpp
+  framebuffer/bitplane.cpp framebuffer/prefetch_lines.cpp framebuffer/instruction_set.cpp)
+add_executable(tessera_bench perf/bench/main.cpp engine/program/cli/machine_text.cpp
+  $<TARGET_OBJECTS:tessera_bench_internals> $<TARGET_OBJECTS:tessera_bench_parts>)
 foreach(target tessera_bench_parts tessera_bench)
-  target_link_libraries(${target} PRIVATE tessera_options tessera_scene tessera CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
+  target_link_libraries(${target} PRIVATE
+    tessera_options tessera_scene tessera CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
 endforeach()
+tessera_precompile(tessera_bench_parts <CLI/CLI.hpp> <nlohmann/json.hpp>)
 if(TESSERA_OSMESA_INCLUDE)
   target_include_directories(tessera_bench_parts SYSTEM PRIVATE ${TESSERA_OSMESA_INCLUDE})
 endif()

@@ -11,7 +11,10 @@ void add_squares(MeshData& mesh, int columns, int rows) {
   const auto row = static_cast<std::uint32_t>(columns + 1);
   for (std::uint32_t y = 0; y < static_cast<std::uint32_t>(rows); ++y)
     for (std::uint32_t x = 0; x < static_cast<std::uint32_t>(columns); ++x) {
-      const std::uint32_t a = y * row + x, b = a + 1, c = a + row, d = c + 1;
+      const std::uint32_t a = y * row + x;
+      const std::uint32_t b = a + 1;
+      const std::uint32_t c = a + row;
+      const std::uint32_t d = c + 1;
       mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
     }
 }

@@ -1,6 +1,7 @@
 #include "perf/bench/bench_options.h"
 
 #include <charconv>
+#include <initializer_list>
 #include <limits>
 #include <string_view>
 #include <type_traits>
@@ -8,7 +9,7 @@
 namespace tessera::bench {
 namespace {
 
-// Parses the whole text as a number from `min` to `max`. NaN is out of range.
+/// Parses the whole text as a number from `min` to `max`. NaN is out of range.
 template <class Number>
 bool parse_number(std::string_view text, std::type_identity_t<Number> min, std::type_identity_t<Number> max,
                   Number& number) {
@@ -36,9 +37,9 @@ bool parse_cores(std::string_view text, std::vector<int>& cores) {
   }
 }
 
-// Adds an option that is parsed by parse(text). If that returns false, the error is "expected", `form`,
-// `limits`.
-// @param limits  range of the value, if `form` does not contain it
+/// Adds an option that is parsed by parse(text). If that returns false, the error is "found TEXT, expected ",
+/// followed by `form` and `limits`.
+/// @param limits  range of the value, if `form` does not contain it
 template <class Parse>
 CLI::Option* add_text(CLI::App& program, const std::string& name, const std::string& form,
                       const std::string& help, const Parse& parse, const std::string& limits = "") {
@@ -63,16 +64,27 @@ CLI::Option* add_path(CLI::App& program, const std::string& name, const std::str
   return add_text(program, name, form, help, parse, " to be a non-empty name");
 }
 
-}  // namespace
-
-void add_options(CLI::App& program, BenchOptions& options) {
-  constexpr auto kMaxSeed = std::numeric_limits<decltype(options.measure.seed)>::max();
-  program.option_defaults()->take_last();
-  CLI::Option* const names =
-      program.add_option("workloads", options.names, "names of workloads, or prefixes of them; default: all")
-          ->option_text("[WORKLOAD...]")
-          ->take_all();
+void add_selection_options(CLI::App& program, BenchOptions& options) {
+  program.add_option("workloads", options.names, "names of workloads, or prefixes of them; default: all")
+      ->option_text("[WORKLOAD...]")
+      ->take_all();
   program.add_flag("--list", options.list, "list all workloads");
+}
+
+bool parse_tile_size(std::string_view text, int& tile_size) {
+  return parse_number(text, 32, 128, tile_size) && (tile_size & (tile_size - 1)) == 0;
+}
+
+bool parse_instruction_set(std::string_view text, InstructionSet& instruction_set) {
+  for (const InstructionSet set : {InstructionSet::scalar, InstructionSet::avx2, InstructionSet::avx512})
+    if (name(set) == text) {
+      instruction_set = set;
+      return true;
+    }
+  return false;
+}
+
+void add_renderer_options(CLI::App& program, BenchOptions& options) {
   add_text(
       program, "--size", "WIDTHxHEIGHT", "size of the frames; default: 1920x1080",
       [&options](const std::string& text) { return parse_size(text, options); },
@@ -84,20 +96,15 @@ void add_options(CLI::App& program, BenchOptions& options) {
       program, "--cores", "N[,N...]", "logical CPUs to bind the process to; default: all",
       [&options](const std::string& text) { return parse_cores(text, options.cores); }, ", each 0 to 1023");
   add_text(program, "--tile-size", "32|64|128", "tile size in pixels; default: chosen per frame",
-           [&options](const std::string& text) {
-             return parse_number(text, 32, 128, options.renderer.tile_size) &&
-                    (options.renderer.tile_size & (options.renderer.tile_size - 1)) == 0;
-           });
+           [&options](const std::string& text) { return parse_tile_size(text, options.renderer.tile_size); });
   add_text(program, "--isa", "scalar|avx2|avx512", "instruction set; default: the best of this machine",
            [&options](const std::string& text) {
-             for (const InstructionSet set :
-                  {InstructionSet::scalar, InstructionSet::avx2, InstructionSet::avx512})
-               if (name(set) == text) {
-                 options.renderer.instruction_set = set;
-                 return true;
-               }
-             return false;
+             return parse_instruction_set(text, options.renderer.instruction_set);
            });
+}
+
+void add_measurement_options(CLI::App& program, BenchOptions& options) {
+  constexpr auto kMaxSeed = std::numeric_limits<decltype(options.measure.seed)>::max();
   add_integer(program, "--repeats", "frames per workload; default: as many as fit in --seconds, at least 15",
               1000000, options.measure.repeats);
   add_text(
@@ -112,39 +119,43 @@ void add_options(CLI::App& program, BenchOptions& options) {
       program, "--seed", "N", "seed for random workloads and for the order of turns; default: 1",
       [&options](const std::string& text) { return parse_number(text, 0, kMaxSeed, options.measure.seed); },
       ", 0 to " + std::to_string(kMaxSeed));
+}
+
+/// Options that select another measurement than that of rates.
+void add_mode_options(CLI::App& program, BenchOptions& options) {
   CLI::Option* const rivals = program.add_flag(
       "--rivals", options.rivals, "compare with Mesa, in turns (needs the Debian package libosmesa6)");
-  CLI::Option* const driver = add_text(
-      program, "--driver", "llvmpipe|softpipe", "Mesa driver for --rivals; default: llvmpipe",
-      [&options](const std::string& text) {
-        options.driver = text == "softpipe" ? rivals::MesaDriver::softpipe : rivals::MesaDriver::llvmpipe;
-        return text == "llvmpipe" || text == "softpipe";
-      });
-  driver->needs(rivals);
+  add_text(program, "--driver", "llvmpipe|softpipe", "Mesa driver for --rivals; default: llvmpipe",
+           [&options](const std::string& text) {
+             options.driver =
+                 text == "softpipe" ? rivals::MesaDriver::softpipe : rivals::MesaDriver::llvmpipe;
+             return text == "llvmpipe" || text == "softpipe";
+           })
+      ->needs(rivals);
   CLI::Option* const scaling = program.add_flag("--scaling", options.scaling,
                                                 "speed-up on more cores: measured up to --threads, "
                                                 "predicted for 2 to 128 from the cost of tasks");
   add_integer(program, "--memory-cores", "cores that saturate memory bandwidth, for --scaling; default: 8",
               1024, options.memory_cores)
       ->needs(scaling);
-  CLI::Option* const growth = add_path(program, "--growth", "FILE",
-                                       "SVG plot of time and memory over triangles, pixels, lights and "
-                                       "draws; nothing else is measured",
-                                       options.growth_file);
-  CLI::Option* const trace = add_path(program, "--trace", "FILE",
-                                      "trace of the tasks of one frame per workload, for chrome://tracing "
-                                      "and ui.perfetto.dev; nothing else is measured",
-                                      options.trace_file);
-  CLI::Option* const heatmap = add_path(
-      program, "--heatmap", "FILE",
-      "picture of the cost of each tile of one workload; nothing else is measured", options.heatmap_file);
-  CLI::Option* const json =
-      add_path(program, "--json", "FILE", "all results as JSON; - is the standard output", options.json_file);
-  CLI::Option* const csv = add_path(
-      program, "--csv", "FILE", "one row per workload as CSV; - is the standard output", options.csv_file);
-  CLI::Option* const pictures =
-      add_path(program, "--pictures", "DIR", "folder for the picture of each workload, WORKLOAD.png",
-               options.pictures_folder);
+  add_path(program, "--growth", "FILE",
+           "SVG plot of time and memory over triangles, pixels, lights and draws; nothing else is measured",
+           options.growth_file);
+  add_path(program, "--trace", "FILE",
+           "trace of the tasks of one frame per workload, for chrome://tracing and ui.perfetto.dev; nothing "
+           "else is measured",
+           options.trace_file);
+  add_path(program, "--heatmap", "FILE",
+           "picture of the cost of each tile of one workload; nothing else is measured",
+           options.heatmap_file);
+}
+
+void add_output_options(CLI::App& program, BenchOptions& options) {
+  add_path(program, "--json", "FILE", "all results as JSON; - is the standard output", options.json_file);
+  add_path(program, "--csv", "FILE", "one row per workload as CSV; - is the standard output",
+           options.csv_file);
+  add_path(program, "--pictures", "DIR", "folder for the picture of each workload, WORKLOAD.png",
+           options.pictures_folder);
   CLI::Option* const compare = add_path(program, "--compare", "FILE",
                                         "earlier --json file: shows ratios to it; exits with 3 if a row "
                                         "is slower by more than --allowed",
@@ -154,13 +165,30 @@ void add_options(CLI::App& program, BenchOptions& options) {
       [&options](const std::string& text) { return parse_number(text, 0, 100, options.allowed); },
       ", 0 to 100")
       ->needs(compare);
-  // These modes do not produce rows of rates (rivals, scaling), or write to their own file only.
-  for (CLI::Option* mode : {rivals, scaling})
-    for (CLI::Option* other : {csv, pictures, compare}) mode->excludes(other);
-  rivals->excludes(scaling);
-  for (CLI::Option* mode : {growth, trace, heatmap})
-    for (CLI::Option* other : {rivals, scaling, json, csv, pictures, compare}) mode->excludes(other);
-  for (CLI::Option* other : {trace, heatmap, names}) growth->excludes(other);
+}
+
+void exclude(CLI::App& program, std::initializer_list<const char*> modes,
+             std::initializer_list<const char*> others) {
+  for (const char* mode : modes)
+    for (const char* other : others) program.get_option(mode)->excludes(program.get_option(other));
+}
+
+}  // namespace
+
+void add_options(CLI::App& program, BenchOptions& options) {
+  program.option_defaults()->take_last();
+  add_selection_options(program, options);
+  add_renderer_options(program, options);
+  add_measurement_options(program, options);
+  add_mode_options(program, options);
+  add_output_options(program, options);
+  // These modes measure no rates.
+  exclude(program, {"--rivals", "--scaling"}, {"--csv", "--pictures", "--compare"});
+  exclude(program, {"--rivals"}, {"--scaling"});
+  // These modes write to their own file only.
+  exclude(program, {"--growth", "--trace", "--heatmap"},
+          {"--rivals", "--scaling", "--json", "--csv", "--pictures", "--compare"});
+  exclude(program, {"--growth"}, {"--trace", "--heatmap", "workloads"});
 }
 
 }  // namespace tessera::bench

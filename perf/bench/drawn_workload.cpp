@@ -82,7 +82,7 @@ class DrawnWorkload : public Workload {
     const Picture& picture = drawing_renderer_->picture();
     if (drawing_.fault)
       if (std::string fault = drawing_.fault(picture); !fault.empty()) return fault;
-    // Compare with the scalar kernels; scalar kernels with those of the best instruction set.
+    // Compare with the scalar kernels, and scalar kernels with those of the best instruction set.
     const bool is_scalar = options_.instruction_set == InstructionSet::scalar;
     RendererOptions reference_options = options_;
     reference_options.instruction_set = is_scalar ? InstructionSet::automatic : InstructionSet::scalar;
@@ -122,7 +122,8 @@ class DrawnWorkload : public Workload {
 
  private:
   DrawingRenderer& drawing_renderer() {
-    if (!drawing_renderer_) drawing_renderer_.emplace(drawing_, options_);  // counts as part of a cold start
+    // Made by the first frame: set-up is part of the cold time.
+    if (!drawing_renderer_) drawing_renderer_.emplace(drawing_, options_);
     return *drawing_renderer_;
   }
 

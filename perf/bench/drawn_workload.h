@@ -1,5 +1,5 @@
-// A workload that draws into a frame buffer and writes the picture to an image. Its pictures must match those
-// of another instruction set bit for bit, and pass the check of the drawing.
+// Workloads described as a Drawing: what to record, and how to check the picture. The renderer's picture must
+// also match that of another instruction set bit for bit.
 #pragma once
 
 #include <functional>
@@ -23,29 +23,34 @@ struct Drawing {
   Record record{};
   /// Drawn once, before the first frame: initial content of the planes. Optional.
   Record initial_frame{};
-  /// Recorded after `record` in checked frames only: shows depth or stencil as colour. Optional.
+  /// Draws that show depth or stencil as colour, recorded after `record` in checked frames only. Optional.
   Record reveal{};
-  bool immediate_shading = false;      ///< shades hidden fragments, too (no deferred shading)
-  bool stores_planes = false;          ///< keeps the picture in the planes instead of writing an image
-  std::uint64_t fragments = 0;         ///< expected FrameStats::shaded_pixels of a checked frame; 0: any
-  std::uint64_t tested_fragments = 0;  ///< fragments of a depth-only frame; 0: FrameStats::shaded_pixels
+  bool immediate_shading = false;  ///< turns deferred shading off: hidden fragments are shaded, too
+  bool stores_planes = false;      ///< keeps the picture in the planes instead of writing an image
+
+  /// Expected FrameStats::shaded_pixels of a checked frame; 0: not checked.
+  std::uint64_t fragments = 0;
+  /// FrameWork::fragments of a frame that only tests depth; 0: FrameStats::shaded_pixels.
+  std::uint64_t tested_fragments = 0;
+  /// Returns the fault of a picture, or an empty string. Optional.
+  std::function<std::string(const Picture&)> fault{};
+
   Roofline roofline = Roofline::none;
   /// Bytes per frame that count towards the roofline.
   /// 0: the image, and the planes if a frame loads or stores them.
   std::uint64_t roofline_bytes = 0;
-  std::uint64_t pixel_bytes = 0;  ///< tile data stored per pixel; Roofline::tile_stores only
-  /// Returns the fault of a picture, or an empty string. Optional.
-  std::function<std::string(const Picture&)> fault{};
-  /// Empty: rivals cannot draw it.
+  /// Tile data stored per pixel; Roofline::tile_stores only.
+  std::uint64_t pixel_bytes = 0;
+  /// Equivalent OpenGL workload. Empty if rivals cannot draw it.
   std::function<GlWorkload(const Drawing&)> gl_workload{};
 };
 
-/// Makes a drawing of a size in pixels, with random content from `seed`.
+/// Makes the drawing for a frame size in pixels. `seed` determines random content.
 using MakeDrawing = std::function<Drawing(int width, int height, std::uint32_t seed)>;
 
 /// Workload that draws what `make` returns.
 WorkloadEntry drawn(const std::string& name, const std::string& description, MakeDrawing make);
-/// The same, excluded from the mean of ratios.
+/// Like drawn(), but excluded from the geometric mean of --rivals.
 WorkloadEntry drawn_outside_mean(const std::string& name, const std::string& description, MakeDrawing make);
 
 }  // namespace tessera::bench

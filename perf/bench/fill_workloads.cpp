@@ -85,13 +85,13 @@ Drawing flat_layers(int width, int height) {
     state.material.diffuse = {1, 128 / 255.0f, static_cast<float>(k) / 255, 1};
   });
   for (MeshData& mesh : drawing.meshes) mesh.colors.clear();
-  // The rival draws all layers in the final colour: a single constant is fastest.
+  // The rival draws all layers in the colour of the last one: a single constant is fastest.
   drawing.gl_workload = as_gl_workload(Varying::nothing, {1, 128 / 255.0f, (kLayers - 1) / 255.0f, 1});
   drawing.fault = all_of(255, 128, kLayers - 1);
   return drawing;
 }
 
-// Colours run from 0 at the left and bottom edge to 1, so the colour of every pixel centre has a closed form.
+/// Red runs from 0 at the left edge to 1, blue from 1 to 0, green from 0 at the bottom edge to 1.
 std::string colors_across(const Picture& picture) {
   const std::uint8_t* pixel = picture.rgba.data();
   for (int y = 0; y < picture.height; ++y)

@@ -55,10 +55,12 @@ class TaskCosts {
     TracedFrame frame = workload_.draw();
     frame.dispatch_seconds = workers_->take_seconds() - frame.task_seconds();
     frame.untraced_calls = workers_->take_calls() - passes_of(frame.tasks);
-    const bool has_lost_trace = frame.tasks.empty() && min_ && !min_->tasks.empty();  // no memory for it
+    // There was no memory for the trace.
+    const bool has_lost_trace = frame.tasks.empty() && min_ && !min_->tasks.empty();
     if (!counts || has_lost_trace) return;
+    // Frames take fewer passes after bins have grown.
     const bool is_comparable = min_ && min_->tasks.size() == frame.tasks.size();
-    if (!is_comparable) min_ = frame;  // after bins have grown, frames take fewer passes
+    if (!is_comparable) min_ = frame;
     min_->dispatch_seconds = std::min(min_->dispatch_seconds, frame.dispatch_seconds);
     for (std::size_t i = 0; i < frame.tasks.size(); ++i)
       if (length(frame.tasks[i]) < length(min_->tasks[i])) min_->tasks[i] = frame.tasks[i];

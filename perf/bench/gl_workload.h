@@ -1,5 +1,5 @@
-// A drawing in the form that OpenGL draws fastest: one mesh in one call, constants as literals in the
-// shaders, no state changes within a frame.
+// A workload for OpenGL, in its fastest form: one mesh in one call, constants as literals in the shaders, no
+// state changes within a frame.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,18 @@ struct ShaderSources {
   std::string vertex, fragment;
 };
 
+/// State is OpenGL's default except for the members below.
 struct GlWorkload {
   MeshData mesh{};
   ShaderSources shaders{};
   bool tests_depth = false;  ///< depth function GL_LESS, with writes
   bool writes_color = true;
-  /// Number of trailing indices that a checked frame draws once more, in colour, with GL_EQUAL: makes depth
-  /// visible. 0: none.
+  /// Checked frames draw the last `revealed_indices` indices once more, with colour writes and depth function
+  /// GL_EQUAL: the picture then shows whether their depth was stored. 0: none.
   int revealed_indices = 0;
-  bool blends = false;              ///< GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA
-  bool increments_stencil = false;  ///< cleared to 1; passes if greater than 0, then increments
+  bool blends = false;  ///< GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA
+  /// Stencil is cleared to 1. Fragments pass if it is greater than 0, and increment it.
+  bool increments_stencil = false;
   bool culls_back = false;
   Color clear_color{0, 0, 0, 1};
   int texture_size = 0;                ///< texels per side; 0: no texture

@@ -146,7 +146,8 @@ std::string growth_table(const std::vector<Growth>& all) {
 }
 
 std::string growth_svg(const std::vector<Growth>& all) {
-  const double width = kPitchX * static_cast<double>(all.size()), height = 2 * kPitchY;
+  const double width = kPitchX * static_cast<double>(all.size());
+  const double height = 2 * kPitchY;
   std::string svg = formatted(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %.0f %.0f' font-family='sans-serif' "
       "font-size='11'>\n",

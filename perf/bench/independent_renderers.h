@@ -13,15 +13,15 @@
 namespace tessera::bench {
 using namespace detail;
 
-/// The same workload twice, on one thread each. Reports a fault of either; everything else is the first
-/// one's.
+/// The same workload twice, each on one thread. Reports a fault of either; statistics and picture are those
+/// of the first.
 class IndependentRenderers : public Workload {
  public:
-  /// Frames per renderer in one draw(): keeps the time small in which one waits for the other.
+  /// Frames per renderer in one draw(). With several, the time in which one waits for the other is small.
   static constexpr int kFrames = 3;
   /// Speed-up over one renderer.
-  /// @param one    a single frame on one thread
-  /// @param draws  draw() of this class
+  /// @param one    times of a single frame on one thread
+  /// @param draws  times of draw() of this class
   static Ratio speed_up(const Statistics& one, const Statistics& draws) {
     const Ratio ratio = ratio_of(one, draws);
     constexpr double kAllFrames = 2 * kFrames;

@@ -11,11 +11,24 @@
 namespace tessera::bench {
 namespace {
 
-constexpr double kDistance = 4, kRadius = 1.9;
-constexpr float kRed = 0.41f, kShininess = 50;
+constexpr double kDistance = 4;  // from the eye to the sphere's centre
+constexpr double kRadius = 1.9;
+constexpr float kRed = 0.41f;  // ambient and diffuse reflectance
+constexpr float kShininess = 50;
+
+// Columns of a sphere with about that many triangles.
+constexpr int kColumns20k = 142;
+constexpr int kColumns500k = 708;
+
+struct LitSphere {
+  int columns = kColumns20k;  ///< the sphere has columns^2 triangles
+  Shading shading = Shading::phong;
+  int lights = 1;
+  bool has_spots = false;  ///< spot lights instead of point lights
+};
 
 /// Lights in a ring in front of the sphere, near enough for their directions to vary over it.
-std::vector<Light> ring_of_lights(int count, bool spots) {
+std::vector<Light> ring_of_lights(int count, bool are_spots) {
   std::vector<Light> lights;
   for (int k = 0; k < count; ++k) {
     const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / 8;
@@ -27,7 +40,7 @@ std::vector<Light> ring_of_lights(int count, bool spots) {
     light.diffuse = {0.4f, 0.4f, 0.4f, 1};
     light.specular = {0.5f, 0.5f, 0.5f, 1};
     light.attenuation_linear = 0.05f;
-    if (spots) {
+    if (are_spots) {
       light.spot_direction = {-x, -y, -z};
       light.spot_cutoff = 40;
       light.spot_exponent = 8;
@@ -37,7 +50,7 @@ std::vector<Light> ring_of_lights(int count, bool spots) {
   return lights;
 }
 
-// Red of the sphere's point nearest to the eye by the lighting equation, 0 to 1.
+/// Red, 0 to 1, of the sphere's point nearest to the eye, by the lighting equation in double precision.
 double red_at_center(const std::vector<Light>& lights) {
   double red = 0.2 * kRed;
   for (const Light& light : lights) {
@@ -45,24 +58,30 @@ double red_at_center(const std::vector<Light>& lights) {
     const double y = light.position[1];
     const double z = light.position[2] - kRadius;
     const double distance = std::hypot(x, y, z);
-    // The normal points to the eye: cosines between it and the directions to the light and halfway.
-    const double to_light = z / distance;
-    const double halfway = std::sqrt((1 + to_light) / 2);
+    // The normal and the direction to the eye are both +z. Cosines between the normal and the direction to
+    // the light, and between the normal and Blinn's half vector.
+    const double cos_light = z / distance;
+    const double cos_half = std::sqrt((1 + cos_light) / 2);
     double strength = 1 / (1 + double{light.attenuation_linear} * distance);
     if (light.spot_cutoff < 180) {
+      // The spot points to the origin.
       const double aim = std::hypot(light.position[0], light.position[1], light.position[2]);
-      const double cosine =
+      const double cos_aim =
           (x * light.position[0] + y * light.position[1] + z * light.position[2]) / (distance * aim);
-      const bool is_in_cone = cosine >= std::cos(double{light.spot_cutoff} * std::numbers::pi / 180);
-      strength *= is_in_cone ? std::pow(cosine, light.spot_exponent) : 0;
+      const bool is_in_cone = cos_aim >= std::cos(double{light.spot_cutoff} * std::numbers::pi / 180);
+      strength *= is_in_cone ? std::pow(cos_aim, light.spot_exponent) : 0;
     }
-    red += strength * (to_light * light.diffuse.r * kRed + std::pow(halfway, kShininess) * light.specular.r);
+    const double diffuse = cos_light * light.diffuse.r * kRed;
+    const double highlight = std::pow(cos_half, kShininess) * light.specular.r;
+    red += strength * (diffuse + highlight);
   }
   return std::min(red, 1.0);
 }
 
-// The outline is a circle, formed by the tangents from the eye to the sphere on the image plane at distance
-// 1, whose upper edge is 0.5 above the centre.
+/// Checks the covered area and the red of the central pixel.
+///
+/// The outline is a circle: the tangents from the eye to the sphere meet the image plane, at distance 1, at
+/// kRadius / sqrt(kDistance^2 - kRadius^2) from its centre. The image plane is 1 unit high.
 std::string sphere_fault(const Picture& picture, double red) {
   const double radius = kRadius / std::sqrt(kDistance * kDistance - kRadius * kRadius) * picture.height;
   const double expected = std::numbers::pi * radius * radius;
@@ -82,25 +101,25 @@ std::string sphere_fault(const Picture& picture, double red) {
   return {};
 }
 
-rivals::LitDraw lit_draw(int width, int height, Shading shading, int lights, bool spots) {
+rivals::LitDraw lit_draw(int width, int height, const LitSphere& scene) {
   const double aspect = static_cast<double>(width) / height;
   return {.camera = {.view = translate(0, 0, -kDistance),
                      .projection = frustum(-0.5 * aspect, 0.5 * aspect, -0.5, 0.5, 1, 20)},
-          .lights = ring_of_lights(lights, spots),
+          .lights = ring_of_lights(scene.lights, scene.has_spots),
           .model = {.local_viewer = true},
           .material = {.ambient = {kRed, 0.135f, 0.067f, 1},
                        .diffuse = {kRed, 0.135f, 0.067f, 1},
                        .specular = {1, 1, 1, 1},
                        .shininess = kShininess},
-          .shading = shading,
-          .normalizes = shading == Shading::phong};
+          .shading = scene.shading,
+          .normalizes = scene.shading == Shading::phong};
 }
 
-Drawing lit_sphere(int width, int height, int columns, Shading shading, int lights, bool spots) {
+Drawing lit_sphere(int width, int height, const LitSphere& scene) {
   Drawing drawing;
   drawing.format = {.width = width, .height = height, .stencil_bits = 0};
-  drawing.meshes.push_back(sphere(columns, columns / 2, static_cast<float>(kRadius)));
-  const rivals::LitDraw lit = lit_draw(width, height, shading, lights, spots);
+  drawing.meshes.push_back(sphere(scene.columns, scene.columns / 2, static_cast<float>(kRadius)));
+  const rivals::LitDraw lit = lit_draw(width, height, scene);
   drawing.record = [lit](const Drawing& d, Frame& frame) {
     frame.set_camera(lit.camera);
     frame.set_lights(lit.lights);
@@ -119,22 +138,23 @@ Drawing lit_sphere(int width, int height, int columns, Shading shading, int ligh
                       .tests_depth = true,
                       .culls_back = true};
   };
-  drawing.fault = [red = red_at_center(ring_of_lights(lights, spots))](const Picture& picture) {
+  drawing.fault = [red = red_at_center(lit.lights)](const Picture& picture) {
     return sphere_fault(picture, red);
   };
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& size, int columns, Shading shading, int lights, bool spots) {
-  const bool is_phong = shading == Shading::phong;
-  const std::string kind = spots ? "spot" : "point";
-  const std::string count = std::to_string(lights);
-  return drawn(std::string(is_phong ? "phong-" : "vertex-") + size + "-" + count + (spots ? "-spot" : ""),
-               "a sphere of " + size + " triangles, lit per " + (is_phong ? "pixel" : "vertex") + " by " +
-                   count + " " + kind + (lights > 1 ? " lights" : " light"),
-               [=](int width, int height, std::uint32_t) {
-                 return lit_sphere(width, height, columns, shading, lights, spots);
-               });
+/// @param size  number of triangles in words, part of the name
+WorkloadEntry entry(const std::string& size, const LitSphere& scene) {
+  const bool is_phong = scene.shading == Shading::phong;
+  const std::string count = std::to_string(scene.lights);
+  const std::string name =
+      (is_phong ? "phong-" : "vertex-") + size + "-" + count + (scene.has_spots ? "-spot" : "");
+  const std::string description =
+      "a sphere of " + size + " triangles, lit per " + (is_phong ? "pixel" : "vertex") + " by " + count +
+      (scene.has_spots ? " spot" : " point") + (scene.lights > 1 ? " lights" : " light");
+  return drawn(name, description,
+               [scene](int width, int height, std::uint32_t) { return lit_sphere(width, height, scene); });
 }
 
 }  // namespace
@@ -143,20 +163,22 @@ WorkloadEntry sphere_in_frame(int width, int height) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
   return drawn_outside_mean(
       "size-" + size, "phong-20k-1 in a frame of " + size, [=](int, int, std::uint32_t) {
-        Drawing drawing = lit_sphere(width, height, 142, Shading::phong, 1, false);
+        Drawing drawing = lit_sphere(width, height, {});
         drawing.gl_workload = nullptr;  // rivals draw frames of the size from the command line only
         return drawing;
       });
 }
 
-WorkloadEntry sphere_with_lights(int lights) { return entry("20k", 142, Shading::phong, lights, false); }
+WorkloadEntry sphere_with_lights(int lights) { return entry("20k", {.lights = lights}); }
 
 std::vector<WorkloadEntry> lit_workloads() {
   std::vector<WorkloadEntry> list;
-  for (const auto& [size, columns] : {std::pair{"20k", 142}, {"500k", 708}})
-    for (const int lights : {1, 8}) list.push_back(entry(size, columns, Shading::gouraud, lights, false));
-  for (const bool spots : {false, true})
-    for (const int lights : {1, 4, 8}) list.push_back(entry("20k", 142, Shading::phong, lights, spots));
+  for (const auto& [size, columns] : {std::pair{"20k", kColumns20k}, {"500k", kColumns500k}})
+    for (const int lights : {1, 8})
+      list.push_back(entry(size, {.columns = columns, .shading = Shading::gouraud, .lights = lights}));
+  for (const bool has_spots : {false, true})
+    for (const int lights : {1, 4, 8})
+      list.push_back(entry("20k", {.lights = lights, .has_spots = has_spots}));
   for (const auto& [width, height] :
        {std::pair{320, 200}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}, {7680, 4320}})
     list.push_back(sphere_in_frame(width, height));

@@ -47,6 +47,13 @@ void write(const std::string& file, const std::string& text) {
   cli::write_to_stdout(text);
 }
 
+WorkloadSetup setup_of(const BenchOptions& options) {
+  return {.width = options.width,
+          .height = options.height,
+          .options = options.renderer,
+          .seed = options.measure.seed};
+}
+
 void make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -56,12 +63,7 @@ void make_folder(const std::string& folder) {
 /// Measures workloads and prints each line as soon as it is known.
 class Bench {
  public:
-  explicit Bench(const BenchOptions& options)
-      : options_(options),
-        setup_{.width = options.width,
-               .height = options.height,
-               .options = options.renderer,
-               .seed = options.measure.seed} {
+  explicit Bench(const BenchOptions& options) : options_(options), setup_(setup_of(options)) {
     report_.machine = cli::machine_text();
     report_.width = options.width;
     report_.height = options.height;
@@ -106,7 +108,7 @@ class Bench {
     try {
       report_.core_to_core_ns[1] = core_to_core_ns();
     } catch (const std::exception&) {
-      // No thread or no memory for it: stays 0, which is not shown.
+      // No thread or no memory for it. It stays 0 and is not shown.
     }
   }
   void show(const std::string& text) const {
@@ -205,10 +207,7 @@ class Bench {
 };
 
 void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>& entries) {
-  const WorkloadSetup setup{.width = options.width,
-                            .height = options.height,
-                            .options = options.renderer,
-                            .seed = options.measure.seed};
+  const WorkloadSetup setup = setup_of(options);
   std::vector<TracedFrame> frames;
   if (!options.trace_file.empty())
     for (const WorkloadEntry* entry : entries) {
@@ -233,11 +232,7 @@ void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>&
 void show_growth(const BenchOptions& options) {
   const HardwareCounters counters;
   const ThreadLimit limit(options.renderer.threads);
-  const WorkloadSetup setup{.width = options.width,
-                            .height = options.height,
-                            .options = options.renderer,
-                            .seed = options.measure.seed};
-  const std::vector<Growth> all = measure_growth(setup, options.measure, counters);
+  const std::vector<Growth> all = measure_growth(setup_of(options), options.measure, counters);
   (options.growth_file == "-" ? std::cerr : std::cout) << growth_table(all);
   write(options.growth_file, growth_svg(all));
 }
@@ -262,14 +257,18 @@ void require_affinity(const std::vector<int>& cores) {
     throw Error("the system refuses to bind this process to the cores " + listed(cores));
 }
 
+void list_workloads() {
+  for (const WorkloadEntry& entry : workloads()) {
+    const std::string missing = entry.missing_requirement ? entry.missing_requirement() : "";
+    std::printf("%-22s %s%s%s\n", entry.name.c_str(), entry.description.c_str(),
+                entry.is_in_mean ? "" : " (not in the mean)",
+                missing.empty() ? "" : (": " + missing).c_str());
+  }
+}
+
 int run(BenchOptions& options) {
   if (options.list) {
-    for (const WorkloadEntry& entry : workloads()) {
-      const std::string missing = entry.missing_requirement ? entry.missing_requirement() : "";
-      std::printf("%-22s %s%s%s\n", entry.name.c_str(), entry.description.c_str(),
-                  entry.is_in_mean ? "" : " (not in the mean)",
-                  missing.empty() ? "" : (": " + missing).c_str());
-    }
+    list_workloads();
     return 0;
   }
   // The earlier report must be readable before anything is measured.

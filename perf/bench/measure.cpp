@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <limits>
 #include <new>
 #include <random>
 
@@ -17,17 +18,18 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+// Frames per row if MeasureOptions::seconds decides.
 constexpr int kMinTurns = 15;
-constexpr int kMaxTurns = 1000000;
+constexpr int kMaxTurns = 10000;
 
-/// A workload or the roofline of one.
+/// Runs a workload or one of its rooflines.
 struct Runner {
   std::unique_ptr<Workload> workload{};
   std::optional<BandwidthKernel> roofline{};
-  double Row::*rate = nullptr;  // result of the roofline
-  std::size_t row = 0;
-  FrameStats stats{};  // statistics of the last frame
-  std::vector<double> times{};
+  double Row::*rate = nullptr;  // member that receives the roofline's result
+  std::size_t row = 0;          // index of the row that receives the results
+  FrameStats stats{};           // statistics of the workload's last frame
+  std::vector<double> times{};  // ms
   HardwareCounters::Counts counted{};
 
   void draw() {
@@ -36,10 +38,10 @@ struct Runner {
   }
 };
 
-/// Number of turns of `ms` that fit in `seconds`, at least kMinTurns.
+/// Number of turns of `ms` each that fit in `seconds`, but from kMinTurns to kMaxTurns.
 int turns_for(double seconds, double ms) {
-  return static_cast<int>(
-      std::clamp(1000 * seconds / std::max(ms, 0.001), static_cast<double>(kMinTurns), 1e4));
+  const double turns = 1000 * seconds / std::max(ms, 0.001);
+  return static_cast<int>(std::clamp<double>(turns, kMinTurns, kMaxTurns));
 }
 
 std::uint64_t saturating_difference(std::uint64_t a, std::uint64_t b) { return a > b ? a - b : 0; }
@@ -56,8 +58,8 @@ double warm_up(Runner& runner, double seconds) {
   return frame_ms;
 }
 
-/// Runs `function`. Returns the text of an exception, or an empty string: an error ends one row, not the
-/// table.
+/// Runs `function`. Returns the text of its exception, or an empty string.
+/// An error ends one row, not the table.
 template <class Function>
 std::string error_of(const Function& function) {
   try {
@@ -90,21 +92,23 @@ std::string picture_fault(const Candidate& candidate, Workload& workload) {
   return fault.empty() && candidate.validate ? candidate.validate(workload.picture()) : fault;
 }
 
-/// Adds one runner per roofline of a row. It runs for a millisecond at least (data in caches), so that
-/// starting the threads takes a negligible part.
-void add_rooflines(std::vector<Runner>& runners, const std::vector<Row>& rows, std::size_t& drawing) {
+/// Adds a runner for each roofline. A run moves about 256 MiB. That takes a millisecond or more even in
+/// caches, so starting the threads is a negligible part of it.
+/// @param current_row  set to the row whose turn it is, also on an exception
+void add_rooflines(std::vector<Runner>& runners, const std::vector<Row>& rows, std::size_t& current_row) {
+  constexpr std::uint64_t kMovedBytes = std::uint64_t{256} << 20;
   const auto add = [&](const FrameWork& work, double Row::*rate) {
     try {
-      runners.push_back(
-          {.roofline = bandwidth_kernel_for(work, rows[drawing].threads, std::uint64_t{256} << 20),
-           .rate = rate,
-           .row = drawing});
+      runners.push_back({.roofline = bandwidth_kernel_for(work, rows[current_row].threads, kMovedBytes),
+                         .rate = rate,
+                         .row = current_row});
     } catch (const std::bad_alloc&) {
       // Keep the row; its roofline stays 0.
     }
   };
-  for (drawing = 0; drawing < rows.size(); ++drawing) {
-    const FrameWork work = runners[drawing].workload->work(runners[drawing].stats);
+  for (current_row = 0; current_row < rows.size(); ++current_row) {
+    const Runner& runner = runners[current_row];
+    const FrameWork work = runner.workload->work(runner.stats);
     if (work.roofline != Roofline::none) add(work, &Row::roofline);
     if (work.roofline == Roofline::tile_stores) add({.roofline = Roofline::l1_stores}, &Row::l1_stores);
   }
@@ -112,19 +116,19 @@ void add_rooflines(std::vector<Runner>& runners, const std::vector<Row>& rows, s
 
 /// Times all runners in random turns: the same number of frames of each workload. Rooflines take no more
 /// turns than fit in options.seconds (at least kMinTurns).
-/// @param drawing  set to the row whose turn it is, also on an exception
+/// @param current_row  set to the row whose turn it is, also on an exception
 void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options,
-                   const HardwareCounters& counters, std::size_t& drawing) {
-  // Equal numbers: otherwise most frames of the faster workload would follow its own frames, and those of the
-  // slower one the other's.
-  int frames = kMaxTurns;
+                   const HardwareCounters& counters, std::size_t& current_row) {
+  // All workloads get the same number of frames. Otherwise most frames of the faster workload would follow
+  // another of its frames, and most frames of the slower one a frame of the other.
+  int frames = std::numeric_limits<int>::max();
   std::vector<std::size_t> turns;
-  for (std::size_t k = 0; k < runners.size(); ++k) {  // rooflines come last
-    drawing = runners[k].row;
+  for (std::size_t k = 0; k < runners.size(); ++k) {
+    current_row = runners[k].row;
     const int max_turns = turns_for(options.seconds, warm_up(runners[k], options.warm_up_seconds));
-    if (runners[k].roofline)
+    if (!runners[k].roofline) frames = std::min(frames, options.repeats > 0 ? options.repeats : max_turns);
+    else  // rooflines follow all workloads, so `frames` is final
       turns.insert(turns.end(), static_cast<std::size_t>(std::min(frames, max_turns)), k);
-    else frames = std::min(frames, options.repeats > 0 ? options.repeats : max_turns);
   }
   for (std::size_t k = 0; k < runners.size(); ++k)
     if (!runners[k].roofline) turns.insert(turns.end(), static_cast<std::size_t>(frames), k);
@@ -133,7 +137,7 @@ void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options,
   std::optional<std::size_t> last;
   for (const std::size_t k : turns) {
     Runner& runner = runners[k];
-    drawing = runner.row;
+    current_row = runner.row;
     if (last != k) runner.draw();  // warms up caches and threads again
     last = k;
     const std::optional<HardwareCounters::Counts> before = counters.read();
@@ -167,14 +171,14 @@ std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOpt
   }
   const auto has_fault = [](const Row& row) { return !row.fault.empty(); };
   if (std::any_of(rows.begin(), rows.end(), has_fault)) return rows;
-  std::size_t drawing = 0;
+  std::size_t current_row = 0;
   const std::string error = error_of([&] {
-    if (options.measures_rooflines) add_rooflines(runners, rows, drawing);
-    draw_in_turns(runners, options, counters, drawing);
+    if (options.measures_rooflines) add_rooflines(runners, rows, current_row);
+    draw_in_turns(runners, options, counters, current_row);
   });
   if (!error.empty()) {
-    rows[drawing].fault = error;
-    rows[drawing].is_aborted = true;
+    rows[current_row].fault = error;
+    rows[current_row].is_aborted = true;
     return rows;
   }
   for (Runner& runner : runners) {

@@ -20,7 +20,7 @@ struct MeasureOptions {
   double seconds = 1;  ///< per row; rooflines use it even if `repeats` is set
   double warm_up_seconds = 0.2;
   std::uint32_t seed = 1;           ///< for the order of turns
-  bool measures_rooflines = false;  ///< measure each row's roofline in turns with it
+  bool measures_rooflines = false;  ///< also time each row's roofline, in turns with its frames
 };
 
 /// Ratio of a row's median to that of its baseline, measured in turns.
@@ -39,11 +39,14 @@ struct Row {
   Statistics ms;
   FrameWork work;
   std::optional<HardwareCounters::Counts> counts{};  ///< per frame
-  double roofline = 0;                               ///< 10^9 bytes/s; 0: none, or not measured
-  double l1_stores = 0;  ///< L1 store rate in 10^9 bytes/s, for Roofline::tile_stores only
+  /// Rate of the workload's roofline in 10^9 bytes/s; 0: none, or not measured.
+  double roofline = 0;
+  /// L1 store rate in 10^9 bytes/s, for Roofline::tile_stores only.
+  double l1_stores = 0;
   std::optional<BaselineRatio> to_baseline{};
-  std::string fault;        ///< fault of the picture, or the error that stopped the row; empty: none
-  bool is_aborted = false;  ///< whether an error stopped the row (`fault` is not about the picture)
+  /// Fault of the picture, or the error that stopped the row; empty: none.
+  std::string fault;
+  bool is_aborted = false;  ///< whether `fault` is an error that stopped the row
 };
 
 struct Candidate {

@@ -1,4 +1,4 @@
-// Workloads with many triangles, points and lines, with lighting, of the frame buffer, and of whole scenes.
+// Workloads with many triangles, points and lines; with lighting; of the frame buffer; and of whole scenes.
 #pragma once
 
 #include <vector>

@@ -7,8 +7,8 @@
 
 namespace tessera::bench {
 
-/// "operation-none", the lit teapot of the built-in scene, and "operation-<name>", the same with one
-/// operation added. All but the first have "operation-none" as their baseline.
+/// "operation-none" draws the lit teapot of the built-in scene; each "operation-<name>" adds one operation,
+/// and has "operation-none" as its baseline.
 std::vector<WorkloadEntry> operation_workloads();
 
 }  // namespace tessera::bench

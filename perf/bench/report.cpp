@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kMiB = 1 << 20;
 
-// Rate in 10^9 bytes/s that is compared with the roofline.
+/// Rate in 10^9 bytes/s that is compared with the roofline.
 double achieved_bandwidth(const Row& row) {
   return static_cast<double>(row.work.roofline_bytes) / row.ms.median * 1e-6;
 }
 
-// Working memory of the first frame per triangle, if triangles make up most of it.
+/// Working memory of the first frame per triangle, if triangles make up most of it.
 std::optional<double> bytes_per_triangle(const Row& row) {
   constexpr std::uint64_t kMinTriangles = 100000;
   return row.work.triangles >= kMinTriangles
@@ -36,7 +36,7 @@ const char* name_of(Roofline roofline) {
   return "";
 }
 
-// A count per frame in millions per second.
+/// A count per frame in millions per second.
 double millions(std::uint64_t count, const Row& row) {
   return static_cast<double>(count) / row.ms.median * 1e-3;
 }
@@ -96,7 +96,7 @@ std::vector<Metric> metrics_of(const MachineBandwidth& bandwidth) {
           {"memory_loads_single_core", bandwidth.memory_loads_single_core}};
 }
 
-// The properties of the machine and their values.
+/// The properties of the machine and their values.
 std::vector<std::pair<std::string, std::string>> facts_of(const std::string& machine) {
   std::vector<std::pair<std::string, std::string>> facts;
   std::istringstream lines(machine);
@@ -106,7 +106,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const std::string& mac
   return facts;
 }
 
-// RFC 4180: fields with commas, quotes or line breaks are quoted.
+/// RFC 4180: fields with commas, quotes or line breaks are quoted.
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -138,53 +138,66 @@ std::string table_line(const Row& row) {
       bytes_per_triangle(row) ? formatted("%.0f", *bytes_per_triangle(row)).c_str() : "");
 }
 
-std::string table_summary(const Report& report) {
-  std::string text = report.rival_comparisons ? comparison_summary(*report.rival_comparisons) : "\n";
-  if (report.noise)
-    text += formatted("noise: %s against itself: ratio %.3f (%.3f .. %.3f)\n", report.noise_of.c_str(),
-                      report.noise->value, report.noise->low, report.noise->high);
+namespace {
+
+std::string bandwidth_text(const MachineBandwidth& bandwidth) {
   const auto rate = [](const std::optional<double>& value) {
     return value ? formatted("%.1f", *value) : std::string("(no memory)");
   };
-  text += "bandwidth, GB/s: L1 stores " + rate(report.bandwidth.l1_stores) +
-          ", stores of 64 KiB per thread " + rate(report.bandwidth.tile_stores) + ", of one frame " +
-          rate(report.bandwidth.frame_stores) + ", of 256 MiB " + rate(report.bandwidth.memory_stores) +
-          "; copies of one frame " + rate(report.bandwidth.frame_copies) + "; loads of 256 MiB " +
-          rate(report.bandwidth.memory_loads) +
-          " (one core: " + rate(report.bandwidth.memory_loads_single_core) + ")\n";
-  if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
-    text += formatted("core-to-core latency: %.0f ns (%.0f ns before the measurements)\n",
-                      report.core_to_core_ns[1], report.core_to_core_ns[0]);
+  return "bandwidth, GB/s: L1 stores " + rate(bandwidth.l1_stores) + ", stores of 64 KiB per thread " +
+         rate(bandwidth.tile_stores) + ", of one frame " + rate(bandwidth.frame_stores) + ", of 256 MiB " +
+         rate(bandwidth.memory_stores) + "; copies of one frame " + rate(bandwidth.frame_copies) +
+         "; loads of 256 MiB " + rate(bandwidth.memory_loads) +
+         " (one core: " + rate(bandwidth.memory_loads_single_core) + ")\n";
+}
+
+std::string counters_text(const std::vector<Row>& rows) {
+  std::string text;
   const auto is_timed = [](const Row& row) { return row.frames > 0; };
   const auto is_counted = [](const Row& row) { return row.counts.has_value(); };
-  if (std::any_of(report.rows.begin(), report.rows.end(), is_timed) &&
-      std::none_of(report.rows.begin(), report.rows.end(), is_counted))
+  if (std::any_of(rows.begin(), rows.end(), is_timed) && std::none_of(rows.begin(), rows.end(), is_counted))
     text += "hardware counters: not available\n";
-  for (const Row& row : report.rows)
+  for (const Row& row : rows)
     if (row.counts && row.counts->cycles > 0)
       text +=
           formatted("%-22s %.2f million cycles per frame, %.2f instructions per cycle\n", row.name.c_str(),
                     1e-6 * static_cast<double>(row.counts->cycles),
                     static_cast<double>(row.counts->instructions) / static_cast<double>(row.counts->cycles));
+  return text;
+}
+
+std::string roofline_text(const Row& row) {
+  if (row.frames == 0 || row.work.roofline == Roofline::none) return {};
+  if (row.roofline <= 0)
+    return formatted("%-22s no memory to measure %s\n", row.name.c_str(), name_of(row.work.roofline));
+  const double achieved = achieved_bandwidth(row);
+  const auto share_of = [achieved](double limit, Roofline roofline) {
+    return formatted(", %.0f %% of %s (%.1f GB/s)", 100 * achieved / limit, name_of(roofline), limit);
+  };
+  std::string text = formatted("%-22s moves %.1f GB/s", row.name.c_str(), achieved);
+  text += share_of(row.roofline, row.work.roofline);
+  if (row.l1_stores > 0) text += share_of(row.l1_stores, Roofline::l1_stores);
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string table_summary(const Report& report) {
+  std::string text = report.rival_comparisons ? comparison_summary(*report.rival_comparisons) : "\n";
+  if (report.noise)
+    text += formatted("noise: %s against itself: ratio %.3f (%.3f .. %.3f)\n", report.noise_of.c_str(),
+                      report.noise->value, report.noise->low, report.noise->high);
+  text += bandwidth_text(report.bandwidth);
+  if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
+    text += formatted("core-to-core latency: %.0f ns (%.0f ns before the measurements)\n",
+                      report.core_to_core_ns[1], report.core_to_core_ns[0]);
+  text += counters_text(report.rows);
   for (const Row& row : report.rows)
     if (row.to_baseline)
       text += formatted("%-22s takes %.3f (%.3f .. %.3f) times as long as %s\n", row.name.c_str(),
                         row.to_baseline->ratio.value, row.to_baseline->ratio.low, row.to_baseline->ratio.high,
                         row.to_baseline->baseline.c_str());
-  for (const Row& row : report.rows) {
-    if (row.frames == 0 || row.work.roofline == Roofline::none) continue;
-    if (row.roofline > 0) {
-      const auto share_of = [&](double limit, Roofline roofline) {
-        return formatted(", %.0f %% of %s (%.1f GB/s)", 100 * achieved_bandwidth(row) / limit,
-                         name_of(roofline), limit);
-      };
-      text += formatted("%-22s moves %.1f GB/s", row.name.c_str(), achieved_bandwidth(row)) +
-              share_of(row.roofline, row.work.roofline) +
-              (row.l1_stores > 0 ? share_of(row.l1_stores, Roofline::l1_stores) : "") + "\n";
-    } else {
-      text += formatted("%-22s no memory to measure %s\n", row.name.c_str(), name_of(row.work.roofline));
-    }
-  }
+  for (const Row& row : report.rows) text += roofline_text(row);
   return text;
 }
 

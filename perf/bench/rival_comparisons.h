@@ -26,12 +26,13 @@ struct Comparison {
 struct RivalComparisons {
   std::string rival;     ///< the rival's name and version, as it reports them
   double finish_ms = 0;  ///< rival's time for a frame that changes one pixel
-  /// The same in a window of one pixel. The difference to `finish_ms` is the rival's copy of the picture.
+  /// Rival's time for such a frame in a window of one pixel. The difference to `finish_ms` is the rival's
+  /// copy of the picture.
   double finish_pixel_ms = 0;
   std::vector<Comparison> comparisons;
 };
 
-/// Draws both and, if both pictures are right and match, times them in turns.
+/// Draws both. If both pictures are right and match, times them in turns.
 /// @param max_mismatch_share  share of pixels that may differ by more than two levels
 Comparison compare_with_rival(Candidate ours, Candidate rival, double max_mismatch_share,
                               const MeasureOptions& options, const HardwareCounters& counters);

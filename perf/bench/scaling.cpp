@@ -28,7 +28,7 @@ static_assert(std::find(std::begin(kCores), std::end(kCores), kBreakdownCores) !
 
 double length(const FrameTask& task) { return task.end - task.begin; }
 
-/// Seconds until the last core is done, with WorkerPool's shares and work stealing.
+/// Seconds until all tasks of a pass are done, with WorkerPool's shares and work stealing.
 /// @param tasks             in task order
 /// @param dispatch_seconds  per task
 double makespan(std::span<const FrameTask> tasks, double dispatch_seconds, int cores) {
@@ -38,7 +38,7 @@ double makespan(std::span<const FrameTask> tasks, double dispatch_seconds, int c
   struct Core {
     double free_at = 0;
     std::size_t worker = 0;
-    std::size_t shares_done = 0;  // starting with its own share
+    std::size_t shares_done = 0;  // shares found empty, counted from share `worker`
     bool operator>(const Core& other) const {
       return std::tie(free_at, worker) > std::tie(other.free_at, other.worker);
     }
@@ -67,6 +67,7 @@ std::array<std::pair<const char*, double>, 4> parts_of(const FrameTimeBreakdown&
            {"memory", seconds.memory}}};
 }
 
+/// Minimum seconds of a pass with one empty task per worker.
 double barrier_seconds(int threads) {
   constexpr int kRuns = 9;
   constexpr int kPasses = 500;
@@ -119,50 +120,64 @@ std::vector<int> measured_threads(int threads) {
   return counts;
 }
 
-Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int threads,
-                   const CoreModel& model, const MeasureOptions& options, const HardwareCounters& counters) {
-  const auto on = [&](int count) {
+namespace {
+
+/// Workload to be scaled, and how to measure it.
+struct ScalingInput {
+  const WorkloadEntry& entry;
+  const WorkloadSetup& setup;
+  const MeasureOptions& options;
+  const HardwareCounters& counters;
+
+  Candidate on_threads(int count) const {
     WorkloadSetup with = setup;
     with.options.threads = count;
-    return Candidate{
-        .name = entry.name, .make = [&entry, with] { return entry.make(with); }, .threads = count};
-  };
-  Scaling scaling{.workload = entry.name};
-  const auto note_fault = [&](const std::vector<Row>& rows) {
-    for (const Row& row : rows)
-      if (scaling.fault.empty()) scaling.fault = row.fault;
-  };
-  const std::vector<int> counts = measured_threads(threads);
+    return {.name = entry.name, .make = [&make = entry.make, with] { return make(with); }, .threads = count};
+  }
+};
+
+std::string first_fault(const std::vector<Row>& rows) {
+  for (const Row& row : rows)
+    if (!row.fault.empty()) return row.fault;
+  return {};
+}
+
+/// Measures each thread count in turns with one thread; one thread alone if `counts` is empty.
+void measure_threads(const ScalingInput& input, const std::vector<int>& counts, Scaling& scaling) {
   if (counts.empty()) {
-    const std::vector<Row> rows = measure(std::vector{on(1)}, options, counters);
-    note_fault(rows);
+    const std::vector<Row> rows = measure(std::vector{input.on_threads(1)}, input.options, input.counters);
+    scaling.fault = first_fault(rows);
     scaling.one_ms = rows.front().ms.median;
   }
-  if (!scaling.fault.empty()) return scaling;
   for (const int count : counts) {
-    const std::vector<Row> rows = measure(std::vector{on(1), on(count)}, options, counters);
-    note_fault(rows);
-    if (!scaling.fault.empty()) return scaling;
+    const std::vector<Row> rows =
+        measure(std::vector{input.on_threads(1), input.on_threads(count)}, input.options, input.counters);
+    scaling.fault = first_fault(rows);
+    if (!scaling.fault.empty()) return;
     scaling.one_ms = rows[0].ms.median;
     scaling.measured.emplace_back(count, ratio_of(rows[0].ms, rows[1].ms));
   }
-  if (!counts.empty()) {
-    const Candidate independent{.name = entry.name,
-                                .make = [&] { return std::make_unique<IndependentRenderers>(entry, setup); },
-                                .threads = 2};
-    const std::vector<Row> rows = measure(std::vector{on(1), independent}, options, counters);
-    const bool is_aborted =
-        std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.is_aborted; });
-    if (!is_aborted) {  // otherwise keep what was measured so far
-      note_fault(rows);
-      if (!scaling.fault.empty()) return scaling;
-      scaling.independent_renderers = IndependentRenderers::speed_up(rows[0].ms, rows[1].ms);
-    }
-  }
+}
+
+/// Leaves `scaling` as it is if an error, such as too little memory, stops the measurement.
+void measure_independent_renderers(const ScalingInput& input, Scaling& scaling) {
+  const Candidate independent{
+      .name = input.entry.name,
+      .make = [&] { return std::make_unique<IndependentRenderers>(input.entry, input.setup); },
+      .threads = 2};
+  const std::vector<Row> rows =
+      measure(std::vector{input.on_threads(1), independent}, input.options, input.counters);
+  if (std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.is_aborted; })) return;
+  scaling.fault = first_fault(rows);
+  if (scaling.fault.empty())
+    scaling.independent_renderers = IndependentRenderers::speed_up(rows[0].ms, rows[1].ms);
+}
+
+void predict_speed_ups(const ScalingInput& input, const CoreModel& model, Scaling& scaling) {
   try {
     for (const int cores : kCores) {
-      const std::vector<TracedFrame> costs =
-          measure_frame_costs(entry, setup, std::array{1, cores}, kCostSeconds * options.seconds);
+      const std::vector<TracedFrame> costs = measure_frame_costs(
+          input.entry, input.setup, std::array{1, cores}, kCostSeconds * input.options.seconds);
       const FrameTimeBreakdown on_one_core = predict_frame_time(costs[0], 1, model);
       const FrameTimeBreakdown on_many_cores = predict_frame_time(costs[1], cores, model);
       scaling.predicted.emplace_back(cores, on_one_core.sum() / on_many_cores.sum());
@@ -173,6 +188,18 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
   } catch (const std::exception& error) {
     scaling.not_computed = error.what();
   }
+}
+
+}  // namespace
+
+Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int threads,
+                   const CoreModel& model, const MeasureOptions& options, const HardwareCounters& counters) {
+  const ScalingInput input{entry, setup, options, counters};
+  const std::vector<int> counts = measured_threads(threads);
+  Scaling scaling{.workload = entry.name};
+  measure_threads(input, counts, scaling);
+  if (scaling.fault.empty() && !counts.empty()) measure_independent_renderers(input, scaling);
+  if (scaling.fault.empty()) predict_speed_ups(input, model, scaling);
   return scaling;
 }
 

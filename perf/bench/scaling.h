@@ -1,4 +1,5 @@
-// Speed-up on many cores: measured up to this machine's, and beyond that predicted from the cost of tasks.
+// Speed-up on more cores: measured up to the thread count of the run, predicted for 2 to 128 cores from the
+// cost of tasks.
 #pragma once
 
 #include <optional>
@@ -13,7 +14,7 @@
 
 namespace tessera::bench {
 
-/// A machine with many cores like this one's.
+/// Model of a machine with many cores, each like one of this machine's.
 struct CoreModel {
   double core_gb_per_second = 0;       ///< copy rate of one core, 10^9 bytes/s
   int bandwidth_saturating_cores = 8;  ///< cores needed to saturate memory bandwidth
@@ -24,8 +25,8 @@ CoreModel measure_core_model(int threads);
 
 /// Seconds of a frame on several cores, by activity.
 struct FrameTimeBreakdown {
-  /// Tasks and their dispatch. Untraced work of workers is spread over the tasks; without tasks, over the
-  /// cores.
+  /// Tasks and their dispatch. Untraced work of workers is spread over the tasks, or over the cores if there
+  /// are no tasks.
   double busy = 0;
   /// Waiting for the last task of a pass and for the next pass to begin: the most that could be gained by
   /// overlapping passes.
@@ -35,8 +36,9 @@ struct FrameTimeBreakdown {
 
   double sum() const { return busy + idle + serial + memory; }
 };
-/// List scheduling of costs from measure_frame_costs() for `cores` workers:
-/// - In each pass a core starts with its share, as WorkerPool cuts them, and then steals from other shares.
+/// List scheduling of tasks, with costs from measure_frame_costs() for `cores` workers:
+/// - In each pass a core starts with its share of the tasks, as WorkerPool divides them, and then steals from
+///   other shares.
 /// - Dispatch of a task costs the mean of the frame.
 /// - Passes are separated by barriers; work outside tasks runs on one core.
 /// - The frame's traffic is limited by the memory bandwidth of the model.
@@ -51,8 +53,9 @@ struct Scaling {
   /// std::nullopt if only one thread is measured, or there is no memory for both.
   std::optional<Ratio> independent_renderers{};
   FrameTimeBreakdown on_64_cores{};
-  std::string fault;         ///< why nothing was measured; empty: no fault
-  std::string not_computed;  ///< why the prediction is incomplete; empty: it is complete, or `fault` is set
+  std::string fault;  ///< why nothing was measured; empty: no fault
+  /// Why the prediction is incomplete; empty: it is complete, or `fault` is set.
+  std::string not_computed;
 };
 /// Thread counts that are compared to one thread: all up to 8, then powers of two, and the last.
 std::vector<int> measured_threads(int threads);

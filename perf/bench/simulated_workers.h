@@ -58,10 +58,11 @@ class WorkersOnCallingThread : public SimulatedWorkers {
   void run_all(const Job& job) override { job(); }
 };
 
-/// Runs workers on another thread: measures the serial work of the caller. If the caller's core ran all tasks
-/// of a frame, they would evict the data of its serial work; with many cores it runs a small share of them,
-/// and the results of the others come from their caches. While workers run, the caller reads unrelated memory
-/// in place of its share.
+/// Runs workers on another thread: measures the serial work of the caller.
+///
+/// If the caller's core ran all tasks of a frame, they would evict the data of its serial work. With many
+/// cores it runs a small share of them and fetches the results of the others from the other cores' caches. In
+/// place of its share, the caller reads as much unrelated memory while the workers run.
 class WorkersOnOtherCore : public SimulatedWorkers {
  public:
   /// @param core         logical CPU that the thread is bound to, if the system permits it

@@ -41,7 +41,7 @@ double ns_per_pixel(const FrameTask& task) {
   return 1e9 * (task.end - task.begin) / (static_cast<double>(task.pixels.width) * task.pixels.height);
 }
 
-// Maps 0 to 1 to black, red, yellow, white.
+/// Maps 0 to 1 to black, red, yellow, white.
 void paint(std::uint8_t* rgba, double share) {
   for (int c = 0; c < 3; ++c)
     rgba[c] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(3 * share - c, 0.0, 1.0)));

@@ -23,7 +23,7 @@ std::string vector_literal(double x, double y, double z) {
 std::string color_literal(const Color& c) { return vector_literal(c.r, c.g, c.b); }
 Color product(const Color& a, const Color& b) { return {a.r * b.r, a.g * b.g, a.b * b.b, 1}; }
 
-// GLSL matrices are column-major.
+/// GLSL matrices are column-major.
 std::string matrix_literal(const Matrix& matrix, int size) {
   std::string text = "mat" + std::to_string(size) + "(";
   for (int column = 0; column < size; ++column)
@@ -48,7 +48,8 @@ Vector to_eye(const Matrix& view, double x, double y, double z, double w) {
   return {row(0), row(1), row(2)};
 }
 
-// GLSL that adds one light's contribution to `sum`, for the normal n at p and the direction v to the eye.
+/// Writes GLSL that adds one light's contribution to `sum`, for the normal n at p and the direction v to the
+/// eye.
 void add_light(std::ostringstream& s, const Light& light, const LitDraw& draw) {
   const Material& m = draw.material;
   const Vector at =

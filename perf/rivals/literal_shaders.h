@@ -1,5 +1,5 @@
-// Shaders with all constants as literals: Debian's llvmpipe reads uniforms by scalar gathers, which makes it
-// up to 2.7 times slower.
+// GLSL shaders with all constants as literals. Debian's llvmpipe reads uniforms by scalar gathers: shaders
+// with uniforms are up to 2.7 times slower.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,14 @@
 
 namespace tessera::rivals {
 
-enum class Varying { nothing, colors, texcoords };
-/// Shaders for positions in clip space.
-/// @param color  colour of all fragments with Varying::nothing
+/// Vertex attribute that gives fragments their colour.
+enum class Varying {
+  nothing,   ///< one colour for all fragments
+  colors,    ///< interpolated vertex colours
+  texcoords  ///< texture coordinates
+};
+/// Unlit shaders for vertices whose positions are in clip space.
+/// @param color  colour of all fragments; Varying::nothing only
 bench::ShaderSources window_shaders(Varying varying, const Color& color = {});
 
 /// A draw with Tessera's lighting equation.
@@ -22,7 +27,7 @@ struct LitDraw {
   LightModel model{};  ///< one-sided
   Material material{};
   Shading shading = Shading::gouraud;
-  bool normalizes = true;  ///< whether vertex normals are normalized
+  bool normalizes = true;  ///< normalizes vertex normals in eye space (DrawState::normalize)
 };
 /// @throws std::runtime_error for two-sided lighting and for highlights other than Blinn's
 bench::ShaderSources lit_shaders(const LitDraw& draw);

@@ -1,9 +1,9 @@
-// Functions of OSMesa, loaded on first use: the program does not depend on it, and measurements without
-// rivals do not share a process with its 100 MB.
+// Functions of OSMesa, loaded on first use. The program does not depend on the library, and measurements
+// without rivals do not load its 100 MB.
 #pragma once
 
 #include <GL/osmesa.h>
-// needs the OpenGL types of osmesa.h
+// After osmesa.h: needs its OpenGL types.
 #include <GL/glext.h>
 
 namespace tessera::rivals {

@@ -130,7 +130,7 @@ GLenum mode_of(Primitive primitive) {
 class MesaWorkload : public bench::Workload {
  public:
   MesaWorkload(const GlWorkload& workload, int width, int height, MesaDriver driver, int threads)
-      : window_(width, height, driver, threads), mode_(mode_of(workload.mesh.primitive)) {
+      : context_(width, height, driver, threads), mode_(mode_of(workload.mesh.primitive)) {
     link_and_use_program(workload.shaders);
     set_vertex_attribute(0, workload.mesh.position_components, workload.mesh.positions);
     set_vertex_attribute(1, 3, workload.mesh.normals);
@@ -176,7 +176,7 @@ class MesaWorkload : public bench::Workload {
     if (revealed_indices_ > 0) reveal();
     return mesa().get_error() == GL_NO_ERROR ? "" : "drawing causes an OpenGL error";
   }
-  const Picture& picture() override { return window_.picture(); }
+  const Picture& picture() override { return context_.picture(); }
   bench::FrameWork work(const FrameStats&) const override { return {}; }
 
  private:
@@ -191,10 +191,10 @@ class MesaWorkload : public bench::Workload {
     mesa().color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   }
 
-  // Depth and stencil share words: clearing one of them alone would read and write them.
+  // Depth and stencil are packed into one word: clearing only one of them would read and write the buffer.
   static constexpr GLbitfield kDepthAndStencil = GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;
 
-  MesaContext window_;
+  MesaContext context_;
   GLenum mode_;
   GLsizei index_count_ = 0;
   GLsizei vertex_count_ = 0;
@@ -211,7 +211,7 @@ std::unique_ptr<bench::Workload> mesa_workload(const GlWorkload& workload, int w
 
 double mesa_finish_ms(int width, int height, MesaDriver driver, int threads) {
   constexpr int kFrames = 51;
-  MesaContext window(width, height, driver, threads);
+  MesaContext context(width, height, driver, threads);
   mesa().clear(GL_COLOR_BUFFER_BIT);
   mesa().finish();
   mesa().scissor(0, 0, 1, 1);
@@ -229,7 +229,7 @@ double mesa_finish_ms(int width, int height, MesaDriver driver, int threads) {
 }
 
 std::string mesa_name(MesaDriver driver, int threads) {
-  const MesaContext window(1, 1, driver, threads);
+  const MesaContext context(1, 1, driver, threads);
   return gl_string(GL_RENDERER) + ", " + gl_string(GL_VERSION);
 }
 

@@ -12,15 +12,15 @@ namespace tessera::rivals {
 /// llvmpipe compiles shaders and uses several threads; softpipe interprets them.
 enum class MesaDriver { llvmpipe, softpipe };
 
-/// @param threads  number of threads that llvmpipe may use; with 1 it draws on the calling thread.
-///                 Mesa reads driver and thread count when the first context of the process is made, so they
-///                 must be the same for all
+/// Mesa reads the driver and the thread count when it makes the first context of a process: they must be the
+/// same in all calls.
+/// @param threads  number of threads that llvmpipe may use; with 1 it draws on the calling thread
 /// @throws std::runtime_error if OSMesa is missing, has another driver, or rejects a shader
 std::unique_ptr<bench::Workload> mesa_workload(const bench::GlWorkload& workload, int width, int height,
                                                MesaDriver driver, int threads);
 
-/// Median time in ms of a frame that changes one pixel: the fixed cost of finishing a frame. The difference
-/// to that in a window of one pixel is the copy of the picture.
+/// Median time in ms of a frame that changes one pixel: the fixed cost of finishing a frame.
+/// The copy of the picture is the part by which it exceeds that of a window of one pixel.
 double mesa_finish_ms(int width, int height, MesaDriver driver, int threads);
 
 /// Name and version that the driver reports.

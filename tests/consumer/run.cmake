@@ -1,6 +1,6 @@
-# Installs the library, moves the installation, and uses it there like a user: through find_package and pkg-config, shared
-# and static. Checks exports, dependencies and size of the shared library. Then configures a project that embeds Tessera;
-# building that takes minutes and is left to .ci/full.
+# Installs the library, moves the installation, and uses it there like a user: through find_package and
+# pkg-config, shared and static. Checks exports, dependencies and size of the shared library. Then configures
+# a project that embeds Tessera; building that takes minutes and is left to .ci/full.
 #
 #   cmake -DBUILD=<build tree> -DCOMPILER=<C++ compiler> -DLIBDIR=<lib> -P run.cmake
 set(work ${BUILD}/consumer)
@@ -55,7 +55,8 @@ run(COMMAND nm -D --defined-only --demangle ${library} OUTPUT symbols)
 string(REPLACE ";" "," symbols "${symbols}")
 string(REPLACE "\n" ";" symbols "${symbols}")
 foreach(symbol ${symbols})
-  # Allowed besides the interface: instantiations of standard library templates, which are exported as weak symbols.
+  # Allowed besides the interface: instantiations of standard library templates, which are exported as weak
+  # symbols.
   if(NOT symbol MATCHES " [TDRVBW] (tessera::|(vtable|typeinfo|typeinfo name) for tessera::|operator[^a-z ]* ?\\(tessera::)" AND NOT symbol MATCHES " [WVu] ")
     message(FATAL_ERROR "the library exports ${symbol}")
   endif()

@@ -111,19 +111,27 @@ class AssimpSceneCase {
 
   void make(aiCamera& camera) {
     camera.mName = name();
-    camera.mPosition = vector(), camera.mUp = vector(), camera.mLookAt = vector();
-    camera.mHorizontalFOV = real(), camera.mClipPlaneNear = real(), camera.mClipPlaneFar = real(),
+    camera.mPosition = vector();
+    camera.mUp = vector();
+    camera.mLookAt = vector();
+    camera.mHorizontalFOV = real();
+    camera.mClipPlaneNear = real();
+    camera.mClipPlaneFar = real();
     camera.mAspect = real();
     if (from_.coin()) camera.mOrthographicWidth = real();
   }
   void make(aiLight& light) {
     light.mName = name();
     light.mType = from_.one_of<aiLightSourceType>(6);
-    light.mPosition = vector(), light.mDirection = vector();
-    light.mAttenuationConstant = real(), light.mAttenuationLinear = real(),
+    light.mPosition = vector();
+    light.mDirection = vector();
+    light.mAttenuationConstant = real();
+    light.mAttenuationLinear = real();
     light.mAttenuationQuadratic = real();
-    light.mColorDiffuse = rgb(), light.mColorAmbient = rgb();
-    light.mAngleInnerCone = real(), light.mAngleOuterCone = real();
+    light.mColorDiffuse = rgb();
+    light.mColorAmbient = rgb();
+    light.mAngleInnerCone = real();
+    light.mAngleOuterCone = real();
   }
 
   void make(aiNode& node, int depth) {

@@ -1,4 +1,5 @@
-# Fuzz targets, one program each. The preset `fuzz` (clang) links libFuzzer and the address and undefined sanitizers:
+# Fuzz targets, one program each. The preset `fuzz` (clang) links libFuzzer and the address and undefined
+# sanitizers:
 #
 #   cmake --preset fuzz && cmake --build --preset fuzz
 #   # Fuzz; new inputs go into FOLDER.
@@ -8,7 +9,8 @@
 #   # Minimize: the fewest inputs with the same coverage go into NEW.
 #   build/fuzz/bin/fuzz_scene -merge=1 -max_len=4096 NEW FOLDER tests/fuzz/corpus/scene
 #
-# Every other build replays tests/fuzz/corpus/TARGET: a minimized set of inputs, and those that once found a bug.
+# Every other build replays tests/fuzz/corpus/TARGET: a minimized set of inputs, and those that once found a
+# bug.
 function(tessera_add_fuzz_target name)
   add_executable(fuzz_${name} ${tests}/fuzz/fuzz_${name}.cpp ${ARGN})
   target_link_libraries(fuzz_${name} PRIVATE tessera_options tessera_kernels tessera_engine $<TARGET_NAME_IF_EXISTS:tessera_scene>

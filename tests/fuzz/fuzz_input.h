@@ -106,9 +106,9 @@ class FuzzInput {
 
   static float as_float(double x) {
     constexpr double kLargest = std::numeric_limits<float>::max();
-    return x > kLargest    ? std::numeric_limits<float>::infinity()
-           : x < -kLargest ? -std::numeric_limits<float>::infinity()
-                           : static_cast<float>(x);
+    if (x > kLargest) return std::numeric_limits<float>::infinity();
+    if (x < -kLargest) return -std::numeric_limits<float>::infinity();
+    return static_cast<float>(x);
   }
   template <class Wanted>
   double nearly_always(double x, const Wanted& wanted) {

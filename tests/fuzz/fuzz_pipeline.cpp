@@ -88,8 +88,10 @@ class Reach {
 
  private:
   static bool holds(const std::optional<Rect>& rect, std::int64_t x, std::int64_t y) {
-    return !rect || (x >= rect->x && y >= rect->y && x < std::int64_t{rect->x} + rect->width &&
-                     y < std::int64_t{rect->y} + rect->height);
+    if (!rect) return true;
+    const bool is_in_columns = x >= rect->x && x < std::int64_t{rect->x} + rect->width;
+    const bool is_in_rows = y >= rect->y && y < std::int64_t{rect->y} + rect->height;
+    return is_in_columns && is_in_rows;
   }
   int width_, height_;
   std::vector<bool> reached_;
@@ -117,8 +119,9 @@ class Canvas {
       const std::int64_t row = static_cast<std::int64_t>(i) / stride_;
       const std::int64_t x = static_cast<std::int64_t>(i) % stride_ / 4;
       const std::int64_t y = how_.bottom_up ? row : height_ - 1 - row;
-      const bool inside = x < width_ && x >= part.x && x < std::int64_t{part.x} + part.width && y >= part.y &&
-                          y < std::int64_t{part.y} + part.height;
+      const bool is_in_columns = x < width_ && x >= part.x && x < std::int64_t{part.x} + part.width;
+      const bool is_in_rows = y >= part.y && y < std::int64_t{part.y} + part.height;
+      const bool inside = is_in_columns && is_in_rows;
       require(inside || bytes[i] == kUntouched, "an image changed outside the requested region");
     }
   }

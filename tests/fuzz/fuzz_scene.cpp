@@ -11,20 +11,21 @@ namespace tessera::fuzz {
 using namespace program;
 namespace {
 
-// Built-in meshes of millions of triangles are valid but slow.
-bool asks_for_much(const json::Json& json) {
+// Built-in meshes of millions of triangles are valid but slow. Animated details are skipped, too.
+bool is_large_detail(const json::Json& detail) {
   constexpr double kMaxDetail = 12;
+  return detail.is_structured() || (detail.is_number() && detail.get<double>() > kMaxDetail);
+}
+
+bool has_large_detail(const json::Json& json) {
   if (json.is_object())
     for (const auto& [key, member] : json.items())
-      if ((key == "detail" &&
-           ((member.is_number() && member.get<double>() > kMaxDetail) || member.is_structured())) ||
-          asks_for_much(member))
-        return true;
-  return json.is_array() && std::any_of(json.begin(), json.end(), asks_for_much);
+      if ((key == "detail" && is_large_detail(member)) || has_large_detail(member)) return true;
+  return json.is_array() && std::any_of(json.begin(), json.end(), has_large_detail);
 }
 
 void run(const std::string& text) {
-  if (asks_for_much(json::parse(text, "scene.json"))) return;
+  if (has_large_detail(json::parse(text, "scene.json"))) return;
   files = {{"scene.json", text},
            {"picture.ppm", "P6\n# two by two\n2 2 255\n" + std::string("\xff\x80\x00"
                                                                        "\x00\xff\x40"

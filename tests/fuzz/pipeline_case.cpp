@@ -14,12 +14,14 @@ FrameBufferFormat read_format(FuzzInput& from) {
                                      DepthFormat::unorm32, DepthFormat::none};
   FrameBufferFormat format;
   const auto side = [&](int byte) { return 1 + byte % kMaxSidePixels; };
-  format.width = side(from.byte()), format.height = side(from.byte());
+  format.width = side(from.byte());
+  format.height = side(from.byte());
   const int kind = from.byte();
   const int more = from.byte();
   const bool is_index = (kind & 7) == 7;
   format.color_mode = is_index ? ColorMode::index : ColorMode::rgb;
-  format.color_bits = (kind & 8) == 0 ? is_index ? 8 : 24 : 1 + from.below(24);
+  format.color_bits = is_index ? 8 : 24;
+  if ((kind & 8) != 0) format.color_bits = 1 + from.below(24);
   format.depth = kDepths[(kind >> 4) % 5];
   format.stencil_bits = more % 9;
   format.dither = static_cast<Dither>((more & 0x80) != 0 ? more >> 4 & 3 : 0);
@@ -27,17 +29,20 @@ FrameBufferFormat read_format(FuzzInput& from) {
   if ((extras & 0xe0) == 0xe0) {  // many tiles; rare because they are slow
     constexpr int kLarge[][2] = {{300, 60}, {60, 300}, {2080, 8}, {8, 2080}};
     const auto& large = kLarge[from.below(4)];
-    format.width = large[0], format.height = large[1];
+    format.width = large[0];
+    format.height = large[1];
   }
   if (!is_index) {
     format.alpha_bits = (extras & 1) != 0 ? 8 : 0;
-    format.accumulation_bits = (extras & 2) != 0 ? (extras & 4) != 0 ? 32 : 16 : 0;
-    format.samples = (extras & 8) != 0 ? (extras & 16) != 0 ? 8 : 4 : 1;
+    if ((extras & 2) != 0) format.accumulation_bits = (extras & 4) != 0 ? 32 : 16;
+    if ((extras & 8) != 0) format.samples = (extras & 16) != 0 ? 8 : 4;
   } else if ((extras & 3) == 3) {
     const int entries = 1 + from.below(std::min(1 << format.color_bits, 20));
     for (int i = 0; i < entries; ++i) {
-      const float r = from.unit(), g = from.unit();
-      format.palette.push_back({r, g, from.unit(), 1});
+      const float r = from.unit();
+      const float g = from.unit();
+      const float b = from.unit();
+      format.palette.push_back({r, g, b, 1});
     }
   }
   return format;
@@ -130,16 +135,17 @@ ExactSizeMesh read_mesh(FuzzInput& from) {
       if (is_short) own.short_indices.push_back(static_cast<std::uint16_t>(index));
       else own.indices.push_back(index);
     }
-    own.indices.shrink_to_fit(), own.short_indices.shrink_to_fit();
+    own.indices.shrink_to_fit();
+    own.short_indices.shrink_to_fit();
   }
   if (from.rarely()) {  // mismatched arrays
     std::vector<float>* const lists[] = {&own.positions, &own.normals, &own.colors, &own.texcoords,
                                          &own.color_indices};
     std::vector<float>& list = *lists[from.below(5)];
+    // With a stride, a last vertex of only three components would not be detected.
     if (!list.empty() && own.stride_floats == 0) list = std::vector<float>(list.begin(), list.end() - 1);
     else if (const int odd = from.integer(0, 8); odd != 4 || own.stride_floats == 0)
-      own.mesh.position_components =
-          odd;  // with a stride, a last vertex of only three components would not be detected
+      own.mesh.position_components = odd;
   }
   return own;
 }
@@ -165,7 +171,8 @@ Texture read_texture(FuzzInput& from) {
   TextureSampler sampler;
   sampler.mag = (kind & 32) != 0 ? TextureFilter::nearest : TextureFilter::linear;
   sampler.min = from.one_of<TextureFilter>(6);
-  sampler.wrap_s = from.one_of<TextureWrap>(3), sampler.wrap_t = from.one_of<TextureWrap>(3);
+  sampler.wrap_s = from.one_of<TextureWrap>(3);
+  sampler.wrap_t = from.one_of<TextureWrap>(3);
   return Texture(image, sampler);
 }
 
@@ -181,12 +188,14 @@ std::vector<std::uint8_t> read_texels(FuzzInput& from, std::ptrdiff_t bytes) {
 DrawBitmap read_bitmap(FuzzInput& from, StateReader& states) {
   DrawBitmap command;
   Bitmap& bitmap = command.bitmap;
-  bitmap.width = 1 + from.below(70), bitmap.height = 1 + from.below(20);
+  bitmap.width = 1 + from.below(70);
+  bitmap.height = 1 + from.below(20);
   const std::ptrdiff_t row = (bitmap.width + 7) / 8;
   const std::ptrdiff_t gap = from.coin() ? from.below(5) : 0;
   bitmap.stride_bytes = gap != 0 ? row + gap : 0;
   command.bits = read_texels(from, (row + gap) * (bitmap.height - 1) + row);
-  bitmap.x = 8 * from.finite(), bitmap.y = 8 * from.finite();
+  bitmap.x = 8 * from.finite();
+  bitmap.y = 8 * from.finite();
   bitmap.depth = from.unit();
   bitmap.color = states.any_color();
   command.state = states.fragment_state();
@@ -196,13 +205,19 @@ DrawBitmap read_bitmap(FuzzInput& from, StateReader& states) {
 DrawImage read_image(FuzzInput& from, StateReader& states) {
   DrawImage command;
   PixelImage& image = command.image;
-  image.width = 1 + from.below(20), image.height = 1 + from.below(20), image.channels = 1 + from.below(4);
+  image.width = 1 + from.below(20);
+  image.height = 1 + from.below(20);
+  image.channels = 1 + from.below(4);
   const std::ptrdiff_t row = std::ptrdiff_t{image.width} * image.channels;
   const std::ptrdiff_t gap = from.coin() ? from.below(5) : 0;
   image.stride_bytes = gap != 0 ? row + gap : 0;
   command.pixels = read_texels(from, (row + gap) * (image.height - 1) + row);
-  image.x = 8 * from.finite(), image.y = 8 * from.finite();
-  if (from.coin()) image.zoom_x = from.finite(), image.zoom_y = from.finite();
+  image.x = 8 * from.finite();
+  image.y = 8 * from.finite();
+  if (from.coin()) {
+    image.zoom_x = from.finite();
+    image.zoom_y = from.finite();
+  }
   image.depth = from.unit();
   command.state = states.fragment_state();
   return command;

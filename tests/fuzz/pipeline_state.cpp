@@ -49,7 +49,9 @@ Matrix StateReader::matrix() {
       case 5: {
         Light from;
         for (float& x : from.position) x = from_.finite32();
-        const double a = number(), b = number(), c = number();
+        const double a = number();
+        const double b = number();
+        const double c = number();
         result = planar_shadow({a, b, c, number()}, from);
         break;
       }
@@ -173,7 +175,8 @@ StencilFace StateReader::stencil_face() {
   StencilFace face;
   face.func = from_.one_of<Compare>(8);
   const int ops = from_.byte();
-  face.fail = static_cast<StencilOp>(ops & 7), face.zfail = static_cast<StencilOp>(ops >> 3 & 7);
+  face.fail = static_cast<StencilOp>(ops & 7);
+  face.zfail = static_cast<StencilOp>(ops >> 3 & 7);
   face.zpass = from_.one_of<StencilOp>(8);
   face.ref = from_.rarely() ? from_.word() : from_.byte();
   if (from_.coin()) face.mask = from_.rarely() ? from_.word() : from_.byte();
@@ -207,7 +210,8 @@ void StateReader::read_operations(DrawState& state) {
   }
   if (wants(!is_index())) {
     BlendState blend;
-    blend.src = from_.one_of<BlendFactor>(15), blend.dst = from_.one_of<BlendFactor>(15);
+    blend.src = from_.one_of<BlendFactor>(15);
+    blend.dst = from_.one_of<BlendFactor>(15);
     if (from_.coin()) blend.src_alpha = from_.one_of<BlendFactor>(15);
     if (from_.coin()) blend.dst_alpha = from_.one_of<BlendFactor>(15);
     blend.equation = from_.one_of<BlendEquation>(5);
@@ -233,7 +237,7 @@ DrawState StateReader::draw_state(const std::deque<Texture>& textures) {
   state.front_face = static_cast<FrontFace>(how >> 5 & 1);
   state.cull = Cull::none;
   if ((how & 0x80) != 0) state.cull = (how & 0x40) != 0 ? Cull::back : Cull::front;
-  state.front_mode = static_cast<PolygonMode>((shape & 3) % 3),
+  state.front_mode = static_cast<PolygonMode>((shape & 3) % 3);
   state.back_mode = static_cast<PolygonMode>((shape >> 2 & 3) % 3);
   state.color_material = static_cast<ColorMaterial>((shape >> 4 & 7) % 6);
   if ((more & 1) != 0) state.transform = matrix();
@@ -244,14 +248,23 @@ DrawState StateReader::draw_state(const std::deque<Texture>& textures) {
     state.texture_env = from_.one_of<TextureEnv>(5);
     if (state.texture_env == TextureEnv::blend) state.texture_env_color = any_color();
   }
-  if ((more & 16) != 0) state.point_size = size(), state.line_width = size();
-  if ((more & 32) != 0) state.depth_near = from_.unit(), state.depth_far = from_.unit();
+  if ((more & 16) != 0) {
+    state.point_size = size();
+    state.line_width = size();
+  }
+  if ((more & 32) != 0) {
+    state.depth_near = from_.unit();
+    state.depth_far = from_.unit();
+  }
   if ((more & 64) != 0) {
     state.viewport = rect();
     if (state.viewport->width == 0) state.viewport->width = format_.width;
     if (state.viewport->height == 0) state.viewport->height = format_.height;
     // A viewport inside the window needs no scissor.
-    if (window_ && from_.coin()) state.viewport = window_, state.scissor.reset();
+    if (window_ && from_.coin()) {
+      state.viewport = window_;
+      state.scissor.reset();
+    }
   }
   if ((more & 128) != 0) {
     if (format_.depth != DepthFormat::none || from_.rarely())

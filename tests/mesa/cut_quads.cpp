@@ -25,9 +25,8 @@ bool is_outside(Vec4 clip, bool reversed) {
 PrimitiveType split_cut_quads(const reference::Mesh& mesh, const reference::Draw& draw,
                               const reference::Camera& camera, std::vector<Vertex>& vertices) {
   const bool is_strip = mesh.primitive == PrimitiveType::kQuadStrip;
-  if ((!is_strip && mesh.primitive != PrimitiveType::kQuads) || draw.shading == reference::Shading::kFlat ||
-      !is_filled(draw))
-    return mesh.primitive;
+  const bool has_quads = is_strip || mesh.primitive == PrimitiveType::kQuads;
+  if (!has_quads || draw.shading == reference::Shading::kFlat || !is_filled(draw)) return mesh.primitive;
   const reference::Mat4 eye_from_object = reference::multiply(camera.view_from_world, draw.world_from_object);
   const auto may_be_cut = [&](const Vertex& v) {
     const auto [x, y, z, w] = v.position;

@@ -39,9 +39,8 @@ Reason format_limit(const FrameBufferFormat& format, const Buffers& buffers) {
 
 Reason index_limit(const Draw& draw, const reference::Scene& scene) {
   if (scene.framebuffer.color_mode != ColorMode::kIndex || draw.shadow_on) return std::nullopt;
-  const bool lit_by_index =
-      draw.lighting &&
-      (draw.material.color_indexes || (scene.light_model.two_sided && draw.back_material.color_indexes));
+  const bool lights_back_faces = scene.light_model.two_sided && draw.back_material.color_indexes;
+  const bool lit_by_index = draw.lighting && (draw.material.color_indexes || lights_back_faces);
   const bool drawn_by_index = !draw.lighting && !scene.meshes.at(draw.mesh).color_indices.empty();
   if (lit_by_index || drawn_by_index) return "OSMesa has no colour-index mode";
   return std::nullopt;

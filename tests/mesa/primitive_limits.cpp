@@ -118,8 +118,8 @@ Reason line_limit(const Corners& line, const Draw& draw, const reference::Camera
 double lean(Vec4 a, Vec4 b, double width_px, const reference::Rect& viewport) {
   // The visible part may be arbitrarily short.
   if (!(a.w > 0 && b.w > 0)) return std::numeric_limits<double>::infinity();
-  const double dx = std::abs(b.x / b.w - a.x / a.w) * viewport.width / 2,
-               dy = std::abs(b.y / b.w - a.y / a.w) * viewport.height / 2;
+  const double dx = std::abs(b.x / b.w - a.x / a.w) * viewport.width / 2;
+  const double dy = std::abs(b.y / b.w - a.y / a.w) * viewport.height / 2;
   return std::min(dx, dy) == 0 ? 0 : width_px / 2 * std::min(dx, dy) / (dx * dx + dy * dy);
 }
 
@@ -193,8 +193,8 @@ class TexturedLine {
     if (std::max(a.at.w, b.at.w) <= 0) return;
     if (a.at.w < kInFront * b.at.w) a = mix(b, a, (1 - kInFront) * b.at.w / (b.at.w - a.at.w));
     if (b.at.w < kInFront * a.at.w) b = mix(a, b, (1 - kInFront) * a.at.w / (a.at.w - b.at.w));
-    const double dx = 0.5 * viewport.width * (b.at.x / b.at.w - a.at.x / a.at.w),
-                 dy = 0.5 * viewport.height * (b.at.y / b.at.w - a.at.y / a.at.w);
+    const double dx = 0.5 * viewport.width * (b.at.x / b.at.w - a.at.x / a.at.w);
+    const double dy = 0.5 * viewport.height * (b.at.y / b.at.w - a.at.y / a.at.w);
     const double major = std::max(std::abs(dx), std::abs(dy));
     if (major == 0) return;
     slant_ = std::min(std::abs(dx), std::abs(dy)) / major;

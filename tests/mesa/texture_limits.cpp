@@ -23,7 +23,7 @@ bool is_moved(double at, double zoom) {
 
 // Whether a pixel's centre lies on the border between two image pixels. Mesa finds the texel in float and may
 // choose either.
-bool meets_a_centre(double at, double zoom, int count) {
+bool meets_a_center(double at, double zoom, int count) {
   for (int n = 1; n <= count; ++n) {
     const double border = at + zoom * n;
     if (std::abs(border - std::floor(border) - 0.5) < 1e-4) return true;
@@ -58,8 +58,8 @@ Reason image_limit(const reference::ImageDrawing& drawing) {
   if (is_too_large(drawing.image.width, drawing.image.height)) return "an image beyond Mesa's textures";
   if (is_moved(drawing.at[0], drawing.zoom[0]) || is_moved(drawing.at[1], drawing.zoom[1]))
     return "Mesa rounds the position of an image";
-  if (meets_a_centre(drawing.at[0], drawing.zoom[0], drawing.image.width) ||
-      meets_a_centre(drawing.at[1], drawing.zoom[1], drawing.image.height))
+  if (meets_a_center(drawing.at[0], drawing.zoom[0], drawing.image.width) ||
+      meets_a_center(drawing.at[1], drawing.zoom[1], drawing.image.height))
     return "a pixel's centre between two of an image's: Mesa takes either";
   return std::nullopt;
 }

@@ -83,7 +83,7 @@ class Blender {
         },
         state);
   }
-  /// Same, with a triangle of constant colour in every pixel.
+  /// Draws a triangle of constant colour over every pixel of an image.
   void blend(const std::vector<std::uint8_t>& below, const Color& color, const BlendState& state) {
     static const MeshData all = whole_window();
     Frame frame(buffer_);
@@ -117,8 +117,8 @@ class Blender {
         d[c] =
             split_.bits[c] == 0 ? 1 : static_cast<long double>(split_.level(before[i], c)) / split_.levels(c);
       Components exact = blended(state, s, d);
-      const bool grey = split_.is_luminance();
-      if (grey) exact[0] = exact[1] = exact[2] = 0.30L * exact[0] + 0.59L * exact[1] + 0.11L * exact[2];
+      const bool gray = split_.is_luminance();
+      if (gray) exact[0] = exact[1] = exact[2] = 0.30L * exact[0] + 0.59L * exact[1] + 0.11L * exact[2];
       for (std::size_t c = 0; c < 4; ++c) {
         const int bits = split_.bits[c];
         if (bits == 0) continue;
@@ -126,7 +126,7 @@ class Blender {
             std::abs(static_cast<long double>(split_.level(after[i], c)) - exact[c] * split_.levels(c)) -
             0.5L;
         // Luminance adds 1.875 u for its float weights and sums (color_rounding_test.cpp).
-        const long double bound = bound_of(bits) + (grey && c < 3 ? split_.levels(c) * 1.875L * 0x1p-24L : 0);
+        const long double bound = bound_of(bits) + (gray && c < 3 ? split_.levels(c) * 1.875L * 0x1p-24L : 0);
         ASSERT_LE(beyond, bound) << "factors " << static_cast<int>(state.src) << ", "
                                  << static_cast<int>(state.dst) << ", equation "
                                  << static_cast<int>(state.equation) << ", component " << c << ": level "

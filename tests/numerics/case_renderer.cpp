@@ -41,7 +41,10 @@ class TesseraCases : public CaseRenderer {
       state.transform = d.transform.value_or(Matrix{});
       state.polygon_offset = d.offset;
       if (d.add) state.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one};
-      if (d.textured) state.texture = &*texture_, state.texture_env = TextureEnv::replace;
+      if (d.textured) {
+        state.texture = &*texture_;
+        state.texture_env = TextureEnv::replace;
+      }
       frame.draw({.primitive = d.primitive,
                   .positions = d.positions,
                   .position_components = 4,

@@ -47,9 +47,12 @@ class AnyTriangle {
     const int octaves = dice_.maybe() ? 40 : 2;
     for (std::size_t k = 0; k < 3; ++k) {
       const double w = size(octaves);
-      const double depth = (along ? 1 : dice_.unit() * w);
-      v[k].position = {(dice_.unit() - 0.5) * w, (dice_.unit() - 0.5) * w,
-                       cut.z_at(k == 0 ? -depth * (dice_.maybe() ? size(octaves) : 1) : depth, w), w};
+      const double depth = along ? 1 : dice_.unit() * w;
+      const auto distance = [&] {
+        if (k > 0) return depth;
+        return -depth * (dice_.maybe() ? size(octaves) : 1);
+      };
+      v[k].position = {(dice_.unit() - 0.5) * w, (dice_.unit() - 0.5) * w, cut.z_at(distance(), w), w};
       v[k].attributes[kMeasured] = attribute();
     }
     v[1].attributes[kIsNext] = v[2].attributes[kIsLast] = 1;
@@ -97,9 +100,10 @@ TEST(ClippedAttributes, RoundOnceAtTheCut) {
     const ClippedPolygon polygon = clip_triangle(t, v, outcodes, kAttributes);
     ASSERT_EQ(polygon.count, 4) << "triangle " << n;
     for (const std::size_t end : {1, 2}) {
+      const auto is_end = end == 1 ? kIsNext : kIsLast;
+      const auto is_other_end = end == 1 ? kIsLast : kIsNext;
       const auto is_cut = [&](const ClipVertex& c) {
-        return c.attributes[end == 1 ? kIsLast : kIsNext] == 0 &&
-               c.attributes[end == 1 ? kIsNext : kIsLast] < 1;
+        return c.attributes[is_other_end] == 0 && c.attributes[is_end] < 1;
       };
       const ClipVertex* const found =
           std::find_if(polygon.vertices, polygon.vertices + polygon.count, is_cut);

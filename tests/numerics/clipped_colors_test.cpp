@@ -38,14 +38,14 @@ struct Range {
   long double low = 1, high = 0;
 };
 // Range of the attribute within kReach of a point of the window.
-Range range_around(const VisiblePlane& seen, const Attribute& attribute, Wide x, Wide y) {
-  const Linear numerator = seen.mix(attribute.one, attribute.by_u, attribute.by_v);
+Range range_around(const VisiblePlane& visible, const Attribute& attribute, Wide x, Wide y) {
+  const Linear numerator = visible.mix(attribute.one, attribute.by_u, attribute.by_v);
   Range range;
   for (const int dx : {-kReach, kReach})
     for (const int dy : {-kReach, kReach}) {
       const long double at_x = static_cast<long double>(x) + dx / static_cast<long double>(kReachScale);
       const long double at_y = static_cast<long double>(y) + dy / static_cast<long double>(kReachScale);
-      const long double value = numerator.at(at_x, at_y) / seen.coordinates[0].at(at_x, at_y) / 256;
+      const long double value = numerator.at(at_x, at_y) / visible.coordinates[0].at(at_x, at_y) / 256;
       range.low = std::min(range.low, value);
       range.high = std::max(range.high, value);
     }
@@ -55,7 +55,7 @@ Range range_around(const VisiblePlane& seen, const Attribute& attribute, Wide x,
 // Largest distance from the expected range, in levels of 255, over all pixels that are certain to show the
 // plane. `level_of` maps an attribute to a level.
 template <class LevelOf>
-long double worst_of(const CasePicture& picture, const VisiblePlane& seen, const ExactRegion& region,
+long double worst_of(const CasePicture& picture, const VisiblePlane& visible, const ExactRegion& region,
                      const SquareViewport& view, const std::vector<Attribute>& attributes,
                      const LevelOf& level_of, long& pixels) {
   long double worst = 0;
@@ -65,7 +65,7 @@ long double worst_of(const CasePicture& picture, const VisiblePlane& seen, const
       if (region.side(x, y) != ExactRegion::Side::in) continue;
       ++pixels;
       for (std::size_t a = 0; a < attributes.size(); ++a) {
-        const Range range = range_around(seen, attributes[a], x, y);
+        const Range range = range_around(visible, attributes[a], x, y);
         const long double level =
             255 * static_cast<long double>(picture.colors[static_cast<std::size_t>(row * kSide + column)][a]);
         update_worst(worst, level - level_of(range.high), level_of(range.low) - level);
@@ -91,11 +91,14 @@ long double worst_of_planes(const MakeRenderer& make, bool is_tessera, bool text
   for (int n = 0; n < (is_tessera && long_tests() ? 200000 : 1000); ++n) {
     MeshRandom random(n);
     ClipPlane plane = random_plane(random);
-    if (reversed) plane.origin.z = 1, plane.to_u.z = plane.to_v.z = 0;  // The far plane is at infinity.
+    if (reversed) {  // The far plane is at infinity.
+      plane.origin.z = 1;
+      plane.to_u.z = plane.to_v.z = 0;
+    }
     const int side = random.one_of({kSide, 2048, 16384});
     const SquareViewport view{-random.between(0, side - kSide), -random.between(0, side - kSide), side};
-    const std::optional<VisiblePlane> seen = plane.seen(view);
-    if (!seen) continue;
+    const std::optional<VisiblePlane> visible = plane.visible(view);
+    if (!visible) continue;
     const Grid grid = random_plane_grid(random, kSize, 12);
     CountedMesh mesh = plane.mesh_at(grid.points, random.one_of({1.0, 0x1p100, 0x1p-100}));
     grid.cut_into(mesh, random);
@@ -114,8 +117,9 @@ long double worst_of_planes(const MakeRenderer& make, bool is_tessera, bool text
                            {attributes[0].at(p), attributes[1].at(p), attributes[2].at(p), 1});
     }
     const long before = pixels;
-    const long double here = worst_of(renderer->draw({draw}), *seen, plane.region(*seen, kSize, reversed),
-                                      view, attributes, level_of, pixels);
+    const long double here =
+        worst_of(renderer->draw({draw}), *visible, plane.region(*visible, kSize, reversed), view, attributes,
+                 level_of, pixels);
     clipped +=
         pixels != before && std::any_of(grid.points.begin(), grid.points.end(),
                                         [&](const WindowPoint& p) { return plane.at(p.x, p.y).w <= 0; });

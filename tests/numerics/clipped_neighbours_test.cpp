@@ -64,14 +64,14 @@ TEST(ClippedNeighbours, PlanesThroughAllClipPlanes) {
       MeshRandom random(n);
       const ClipPlane plane = random_plane(random);
       const SquareViewport view = random_view(random);
-      const std::optional<VisiblePlane> seen = plane.seen(view);
-      if (!seen) continue;
+      const std::optional<VisiblePlane> visible = plane.visible(view);
+      if (!visible) continue;
       const Grid grid = random_plane_grid(random, kSize, 12);
       CountedMesh mesh = plane.mesh_at(grid.points, random.one_of({1.0, 0x1p100, 0x1p-100}));
       grid.cut_into(mesh, random);
       cuts.merge(cuts_of(mesh, view));
       count({counting(mesh, view)}, "plane " + std::to_string(n),
-            {covers_of(plane.region(*seen, kSize), kSide, kSide, view),
+            {covers_of(plane.region(*visible, kSize), kSide, kSide, view),
              [&] { return snapping_folds(mesh, view); }});
     }
   });
@@ -92,8 +92,8 @@ TEST(ClippedNeighbours, ThousandsOfTrianglesMeetingAtTheNearPlane) {
       MeshRandom random(n);
       const ClipPlane plane = plane_at_near(random);
       const SquareViewport view = random_view(random);
-      const std::optional<VisiblePlane> seen = plane.seen(view);
-      if (!seen) continue;
+      const std::optional<VisiblePlane> visible = plane.visible(view);
+      if (!visible) continue;
       // Rows of vertices along the plane.
       Grid grid{64, 64, {}};
       for (int v = -32; v <= 32; ++v)
@@ -101,7 +101,7 @@ TEST(ClippedNeighbours, ThousandsOfTrianglesMeetingAtTheNearPlane) {
       CountedMesh mesh = plane.mesh_at(grid.points);
       grid.cut_into(mesh, random);
       count({counting(mesh, view)}, "grid " + std::to_string(n),
-            {covers_of(plane.region(*seen, 32), kSide, kSide, view),
+            {covers_of(plane.region(*visible, 32), kSide, kSide, view),
              [&] { return snapping_folds(mesh, view); }});
       // A fan around one vertex on the plane.
       constexpr int kSpokes = 4096;
@@ -115,7 +115,7 @@ TEST(ClippedNeighbours, ThousandsOfTrianglesMeetingAtTheNearPlane) {
       for (std::uint32_t i = 1; i <= kSpokes; ++i) fan.add_triangle(0, i, i % kSpokes + 1);
       fan.shuffle(random);
       count({counting(fan, view)}, "fan " + std::to_string(n),
-            {covers_of(plane.region(*seen, kRadius / 2), kSide, kSide, view),
+            {covers_of(plane.region(*visible, kRadius / 2), kSide, kSide, view),
              [&] { return snapping_folds(fan, view); }});
     }
   });
@@ -133,8 +133,8 @@ TEST(ClippedNeighbours, UnderReversedInfiniteDepth) {
       plane.origin.z = 1;
       plane.to_u.z = plane.to_v.z = 0;
       const SquareViewport view = random_view(random);
-      const std::optional<VisiblePlane> seen = plane.seen(view);
-      if (!seen) continue;
+      const std::optional<VisiblePlane> visible = plane.visible(view);
+      if (!visible) continue;
       const Grid grid = random_plane_grid(random, kSize, 12);
       CountedMesh mesh = plane.mesh_at(grid.points);
       grid.cut_into(mesh, random);
@@ -142,7 +142,7 @@ TEST(ClippedNeighbours, UnderReversedInfiniteDepth) {
       draw.test_depth = true;
       draw.depth_func = Compare::gequal;
       count({draw}, "plane " + std::to_string(n),
-            {covers_of(plane.region(*seen, kSize, true), kSide, kSide, view),
+            {covers_of(plane.region(*visible, kSize, true), kSide, kSide, view),
              [&] { return snapping_folds(mesh, view, true); }});
     }
   });

@@ -36,13 +36,13 @@ struct DrawnTriangle {
   }
   /// Empty if the triangle is edge-on.
   std::optional<std::vector<Cover>> expected() const {
-    const std::optional<VisiblePlane> seen = visible_plane(exact, kView);
-    if (!seen) return std::nullopt;
+    const std::optional<VisiblePlane> visible = visible_plane(exact, kView);
+    if (!visible) return std::nullopt;
     const auto of_vertices = [&](const auto& value) {
-      return seen->mix(value(exact[0]), value(exact[1]), value(exact[2]));
+      return visible->mix(value(exact[0]), value(exact[1]), value(exact[2]));
     };
     ExactRegion region;
-    region.inside = {seen->coordinates.begin(), seen->coordinates.end()};
+    region.inside = {visible->coordinates.begin(), visible->coordinates.end()};
     region.inside.push_back(
         of_vertices([&](const ClipPoint& p) { return reversed ? p.w - p.z : p.w + p.z; }));
     region.inside.push_back(of_vertices([&](const ClipPoint& p) { return reversed ? p.z : p.w - p.z; }));

@@ -190,12 +190,12 @@ TEST(ColorRounding, RoundsLuminanceToTheNearestGrey) {
         for (int i = 0; i < 200; ++i) {
           // Greys, and colours whose luminance is close to `half` half levels, on either side.
           const double wanted = static_cast<double>(half) / (2 * levels);
-          const float grey = static_cast<float>(wanted);
+          const float gray = static_cast<float>(wanted);
           const float r = random.between(0, 1);
           const float b = random.between(0, 1);
           const float g = static_cast<float>((wanted - 0.30 * r - 0.11 * b) / 0.59 +
                                              (i % 9 - 4) * (i % 2 == 0 ? 0x1p-25 : 0x1p-23));
-          if (i < 3) all.push_back({grey, grey, grey, 1});
+          if (i < 3) all.push_back({gray, gray, gray, 1});
           else if (g >= 0 && g <= 1) all.push_back({r, g, b, 1});
         }
       return all;

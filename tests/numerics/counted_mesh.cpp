@@ -11,10 +11,13 @@ namespace tessera::test {
 namespace {
 
 struct Tally {
-  long double cracks = 0, doubles = 0, strays = 0;
+  // Miscounted pixels.
+  long double cracks = 0;
+  long double doubles = 0;
+  long double strays = 0;
   int meshes = 0;
   int overlapping = 0;
-  // The expected pixels.
+  // Expected pixels.
   std::size_t pixels = 0;
   std::size_t once = 0;
   std::size_t never = 0;
@@ -28,8 +31,8 @@ struct Tally {
       const Cover cover = expected.pixels.empty() ? Cover::once : expected.pixels[i];
       const bool crack = cover == Cover::once && counts[i] == 0;
       const bool stray = cover == Cover::never && counts[i] > 0;
-      bool again = cover != Cover::never && counts[i] > 1 &&
-                   !(expected.folds_along_cuts && cover == Cover::at_most_once);
+      const bool may_fold = expected.folds_along_cuts && cover == Cover::at_most_once;
+      bool again = cover != Cover::never && counts[i] > 1 && !may_fold;
       if (again && expected.overlaps) {
         if (!overlaps) overlapping += *(overlaps = expected.overlaps());
         again = !*overlaps;
@@ -40,7 +43,8 @@ struct Tally {
       ++pixels;
       once += cover == Cover::once;
       never += cover == Cover::never;
-      if ((crack || again || stray) && first == counts.size()) first = i;
+      const bool is_wrong = crack || again || stray;
+      if (is_wrong && first == counts.size()) first = i;
     }
     return first;
   }

@@ -99,7 +99,10 @@ std::vector<VisibilityOracle> meshes() {
 
 /// Wrong pixels, summed over all frames.
 struct Wrong {
-  long double colors = 0, depths = 0, counts = 0, times = 0;
+  long double colors = 0;
+  long double depths = 0;
+  long double counts = 0;  ///< stencil
+  long double times = 0;   ///< fragments
   bool any() const { return colors + depths + counts + times > 0; }
 };
 
@@ -140,8 +143,10 @@ class CoverageOfDraws : public testing::TestWithParam<ShadingPath> {
 
     Wrong here;
     buffer.read_packed_colors(words_);
-    for (std::size_t i = 0; i < kPixels; ++i)
-      here.colors += words_[i] != (path.has_color ? mesh.color_word(i) : 0) ? 1 : 0;
+    for (std::size_t i = 0; i < kPixels; ++i) {
+      const std::uint32_t expected = path.has_color ? mesh.color_word(i) : 0;
+      here.colors += words_[i] != expected ? 1 : 0;
+    }
     if (state.depth.enabled) {
       buffer.read_stored_depths(words_);
       for (std::size_t i = 0; i < kPixels; ++i)

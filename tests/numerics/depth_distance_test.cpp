@@ -40,14 +40,14 @@ bool is_apart(CaseRenderer& renderer, CaseDraw nearer, CaseDraw farther, const M
   farther.transform = projection * scale(distance, distance, distance);
   nearer.color = {0, 1, 0, 1};
   farther.color = {1, 0, 0, 1};
-  int seen = 0;
+  int visible_pixels = 0;
   for (const bool near_first : {false, true})
     for (const std::array<float, 3>& color :
          renderer.draw(near_first ? std::vector{nearer, farther} : std::vector{farther, nearer}).colors) {
       if (color[0] > 0) return false;
-      seen += color[1] > 0 ? 1 : 0;
+      visible_pixels += color[1] > 0 ? 1 : 0;
     }
-  return seen > kSide;
+  return visible_pixels > kSide;
 }
 
 // A floor below the viewer, at `height` times the distance in `positions`, from straight below to 6 heights

@@ -87,12 +87,13 @@ CaseDraw others(Rng& rng) {
 }
 
 struct Pixels {
-  long double wrong = 0, seen = 0;
+  long double wrong = 0;
+  long double visible = 0;
 };
 void add_pixels(Pixels& pixels, const CasePicture& picture) {
   for (const std::array<float, 3>& color : picture.colors) {
     pixels.wrong += color[0] > 0;
-    pixels.seen += color[1] > 0;
+    pixels.visible += color[1] > 0;
   }
 }
 
@@ -108,7 +109,7 @@ TEST(DepthEqual, TheSameTriangleAgainIsEqualEverywhere) {
                       for (const CaseDraw& again : {twice.again, larger_mesh(rng, twice.again)})
                         add_pixels(pixels, renderer->draw({twice.first, others(rng), again}));
                     }
-                    EXPECT_GT(pixels.seen, 1e5);
+                    EXPECT_GT(pixels.visible, 1e5);
                     return pixels.wrong;
                   });
 }
@@ -128,7 +129,7 @@ TEST(DepthEqual, TheSameTriangleIsEqualInOtherPrimitives) {
           other.indices.clear();
           add_pixels(pixels, renderer->draw({twice.first, others(rng), twice.again}));
         }
-    EXPECT_GT(pixels.seen, 1e5);
+    EXPECT_GT(pixels.visible, 1e5);
     expect_within(
         "depth, " + std::string(depth.name) + ", the same triangle again, of a fan, a polygon, quads",
         pixels.wrong, 0, "pixels");
@@ -153,7 +154,9 @@ constexpr ShadingPath kShadingPaths[] = {
     {"textured", [](DrawState& s, const Texture& t) { s.texture = &t; }},
     {"textured and blended",
      [](DrawState& s, const Texture& t) {
-       s.texture = &t, s.blend = BlendState{}, s.material.diffuse.a = 0.5f;
+       s.texture = &t;
+       s.blend = BlendState{};
+       s.material.diffuse.a = 0.5f;
      }},
     {"stencil",
      [](DrawState& s, const Texture&) { s.stencil = StencilState{.front = {.zpass = StencilOp::incr}}; }},

@@ -23,7 +23,7 @@ TEST(DepthPlanes, UnormDepthsAreWithinTheirLevels) {
       expect_figure("depth, " + std::string(depth.name) + ", triangles " + name_of(shape),
                     depth.bits == 32 ? 4 : 1, "levels", [&](const MakeRenderer& make, bool is_tessera) {
                       std::int64_t worst = 0;
-                      const std::size_t seen =
+                      const std::size_t visible_pixels =
                           for_each_pixel(make, depth, shape, rounds_of(is_tessera),
                                          [&](const Tilted& t, int x, int y, std::uint32_t stored) {
                                            const std::int64_t exact = exact_level(
@@ -31,7 +31,7 @@ TEST(DepthPlanes, UnormDepthsAreWithinTheirLevels) {
                                                t.triangle.area() << kFraction);
                                            worst = std::max(worst, std::abs(std::int64_t{stored} - exact));
                                          });
-                      EXPECT_GT(seen, 300u);
+                      EXPECT_GT(visible_pixels, 300u);
                       return static_cast<long double>(worst);
                     });
 }
@@ -71,7 +71,7 @@ TEST(DepthPlanes, FloatDepthsAreWithinTheirRoundings) {
     expect_figure("depth, floats, triangles " + name_of(shape), 1, "of one rounding",
                   [&](const MakeRenderer& make, bool is_tessera) {
                     long double worst = 0;
-                    const std::size_t seen = for_each_pixel(
+                    const std::size_t visible_pixels = for_each_pixel(
                         make, kFloat32, shape, rounds_of(is_tessera),
                         [&](const Tilted& t, int x, int y, std::uint32_t stored) {
                           const std::size_t anchor = t.triangle.topmost();
@@ -104,7 +104,7 @@ TEST(DepthPlanes, FloatDepthsAreWithinTheirRoundings) {
                           if (!(error <= bound) || bound > 0)
                             update_worst(worst, bound > 0 ? error / bound : 0x1p24L * error);
                         });
-                    EXPECT_GT(seen, 300u);
+                    EXPECT_GT(visible_pixels, 300u);
                     return worst;
                   });
 }
@@ -114,9 +114,9 @@ TEST(DepthPlanes, DepthsStayWithinTheRangeOfTheVertices) {
     expect_figure("depth, " + std::string(depth.name) + ", beyond the vertices' own", 0, "levels",
                   [&](const MakeRenderer& make, bool is_tessera) {
                     std::int64_t worst = 0;
-                    std::size_t seen = 0;
+                    std::size_t visible_pixels = 0;
                     for (const WindowShape shape : kWindowShapes)
-                      seen += for_each_pixel(
+                      visible_pixels += for_each_pixel(
                           make, depth, shape, rounds_of(is_tessera),
                           [&](const Tilted& t, int, int, std::uint32_t stored) {
                             const auto [low, high] = std::minmax({t.z[0], t.z[1], t.z[2]});
@@ -129,7 +129,7 @@ TEST(DepthPlanes, DepthsStayWithinTheRangeOfTheVertices) {
                             };
                             worst = std::max({worst, level(low) - stored, stored - level(high)});
                           });
-                    EXPECT_GT(seen, 10000u);
+                    EXPECT_GT(visible_pixels, 10000u);
                     return static_cast<long double>(worst);
                   });
 }

@@ -61,7 +61,7 @@ long double wrong_pixels(CaseRenderer& renderer, CaseDraw draw, const Matrix& ne
   CaseDraw behind = colored(kBehind, nearer, Compare::always);
   behind.test_depth = false;
   long double wrong = 0;
-  long double seen = 0;
+  long double visible_pixels = 0;
   for (const bool near_first : {false, true}) {
     const CaseDraw first =
         near_first ? colored(kNear, nearer, tests.others) : colored(kFar, farther, tests.others);
@@ -69,10 +69,10 @@ long double wrong_pixels(CaseRenderer& renderer, CaseDraw draw, const Matrix& ne
         near_first ? colored(kFar, farther, tests.others) : colored(kNear, nearer, tests.nearer);
     for (const std::array<float, 3>& color : renderer.draw({behind, first, second}).colors) {
       wrong += color[0] > 0 || color[2] > 0;
-      seen += color[0] > 0 || color[1] > 0 || color[2] > 0;
+      visible_pixels += color[0] > 0 || color[1] > 0 || color[2] > 0;
     }
   }
-  EXPECT_GT(seen, 100);
+  EXPECT_GT(visible_pixels, 100);
   return wrong;
 }
 
@@ -96,8 +96,8 @@ TEST(DepthSeparation, ParallelSurfacesOneStepApartStayApart) {
                     long double wrong = 0;
                     // From 2^-31 on, doubles in -1 .. 1 hold 2 z - 1 exactly for a float z.
                     // The far end itself never passes `less` against the clear value.
-                    const std::int64_t first = depth.is_float() ? 0x30000000 : 0,
-                                       last = depth.is_float() ? 0x3f800000 : depth.levels();
+                    const std::int64_t first = depth.is_float() ? 0x30000000 : 0;
+                    const std::int64_t last = depth.is_float() ? 0x3f800000 : depth.levels();
                     for (const Window& window : kWindows) {
                       const auto renderer =
                           make({.width = window.width, .height = window.height, .depth = depth.format});
@@ -206,10 +206,10 @@ TEST(DepthSeparation, TiltedSurfacesOneFloatNearerNeverFallBehindTwoFloatsAreNea
                   });
 }
 
-// Pixels of a decal that are hidden by the plane it lies in; `seen` counts the pixels of the decal on the
-// plane.
+// Pixels of a decal that are hidden by the plane it lies in. Adds the pixels of the decal on the plane to
+// `visible_pixels`.
 long double hidden_pixels(CaseRenderer& renderer, const CaseDraw& base, CaseDraw decal, const Matrix& plane,
-                          const PolygonOffset& offset, long& seen) {
+                          const PolygonOffset& offset, long& visible_pixels) {
   CaseDraw below = base;
   below.color = kFar;
   decal.color = kNear;
@@ -222,7 +222,7 @@ long double hidden_pixels(CaseRenderer& renderer, const CaseDraw& base, CaseDraw
   const std::vector<std::array<float, 3>>& both = renderer.draw({below, decal}).colors;
   long double hidden = 0;
   for (std::size_t i = 0; i < alone.size(); ++i) {
-    seen += alone[i][1] > 0 && covered[i][0] > 0;
+    visible_pixels += alone[i][1] > 0 && covered[i][0] > 0;
     hidden += alone[i][1] > 0 && both[i][0] > 0;
   }
   return hidden;
@@ -240,7 +240,7 @@ TEST(DepthSeparation, OffsetByOneUnitSeparatesCoplanarSurfaces) {
           0, "pixels", [&](const MakeRenderer& make, bool is_tessera) {
             Rng rng(14);
             long double hidden = 0;
-            long seen = 0;
+            long visible_pixels = 0;
             const int size = 64;
             const auto renderer = make({.width = size, .height = size, .depth = depth.format});
             for (int n = 0; n < (is_tessera && long_tests() ? 3000 : 200); ++n) {
@@ -259,12 +259,12 @@ TEST(DepthSeparation, OffsetByOneUnitSeparatesCoplanarSurfaces) {
               plane.m[9] = slope * std::sin(turn);
               // Steps per pixel: below one, the rounding to float between the vertices exceeds the slope.
               const double rounding = depth.is_float() ? std::abs(slope) / 32 * 0x1p24 : 1;
-              if (same) hidden += hidden_pixels(*renderer, decal, decal, plane, {0, -1}, seen);
+              if (same) hidden += hidden_pixels(*renderer, decal, decal, plane, {0, -1}, visible_pixels);
               else if (slope == 0 || rounding >= 1)
-                hidden +=
-                    hidden_pixels(*renderer, base, decal, plane, {-1, slope == 0 ? -1.0f : -2.0f}, seen);
+                hidden += hidden_pixels(*renderer, base, decal, plane, {-1, slope == 0 ? -1.0f : -2.0f},
+                                        visible_pixels);
             }
-            EXPECT_GT(seen, 10000);
+            EXPECT_GT(visible_pixels, 10000);
             return hidden;
           });
 }

@@ -65,20 +65,21 @@ struct VisiblePlane {
 /// Empty for a plane through the eye.
 inline std::optional<VisiblePlane> visible_plane(const std::array<ClipPoint, 3>& p,
                                                  const SquareViewport& view) {
-  VisiblePlane seen;
+  VisiblePlane plane;
   Wide determinant = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     // The determinant with q in place of p[k].
-    const ClipPoint &a = p[(k + 1) % 3], &b = p[(k + 2) % 3];
+    const ClipPoint& a = p[(k + 1) % 3];
+    const ClipPoint& b = p[(k + 2) % 3];
     const Linear cofactors{Wide{a.y} * b.w - Wide{a.w} * b.y, Wide{a.w} * b.x - Wide{a.x} * b.w,
                            Wide{a.x} * b.y - Wide{a.y} * b.x};
     determinant = cofactors.dx * p[k].x + cofactors.dy * p[k].y + cofactors.one * p[k].w;
-    seen.coordinates[k] = {cofactors.dx, cofactors.dy, cofactors.one * view.side};
+    plane.coordinates[k] = {cofactors.dx, cofactors.dy, cofactors.one * view.side};
   }
   if (determinant == 0) return std::nullopt;
   if (determinant < 0)
-    for (Linear& c : seen.coordinates) c = -1 * c;
-  return seen;
+    for (Linear& c : plane.coordinates) c = -1 * c;
+  return plane;
 }
 
 /// The region where all of several functions are positive.

@@ -5,15 +5,13 @@
 // Only library calls run between setting and restoring a mode.
 #include <gtest/gtest.h>
 
-#include "tests/numerics/host_mode.h"
+#include "tests/numerics/every_host_mode.h"
 
 #if defined(__x86_64__)
 
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <functional>
-#include <limits>
 #include <memory>
 #include <thread>
 
@@ -25,31 +23,7 @@ using namespace detail;
 using namespace program;
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
-                kInfinity = std::numeric_limits<float>::infinity(), kDenormal = 1e-40f;
-
-std::string described(unsigned mode) {
-  char text[64];
-  std::snprintf(text, sizeof text, "mode %04x", mode);
-  return text;
-}
-
-/// Runs `act` in each mode, after one run in the default mode. `result` then returns the outcome.
-template <class Act, class Result>
-void expect_the_same_in_every_mode(const Act& act, const Result& result) {
-  act();
-  const auto expected = result();
-  for (const unsigned mode : HostModes::all()) {
-    bool untouched = false;
-    {
-      const HostMode host(mode);
-      act();
-      untouched = host.is_untouched();
-    }
-    ASSERT_TRUE(untouched) << described(mode);
-    ASSERT_TRUE(result() == expected) << described(mode);
-  }
-}
+constexpr float kDenormal = 1e-40f;
 
 std::vector<std::uint64_t> bits_of(std::initializer_list<Matrix> matrices) {
   std::vector<std::uint64_t> bits;
@@ -60,7 +34,7 @@ std::vector<std::uint64_t> bits_of(std::initializer_list<Matrix> matrices) {
 
 TEST(FloatingPointEnvironment, ChangesNoBitOfAMatrix) {
   Matrix turned;
-  Matrix seen;
+  Matrix viewed;
   Matrix wide;
   Matrix skew;
   Matrix box;
@@ -75,18 +49,18 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfAMatrix) {
   expect_the_same_in_every_mode(
       [&] {
         turned = rotate(33.3, 0.1, 0.7, 0.3);
-        seen = look_at({0.1, 0.7, 3.3}, {0.2, -0.1, 0.3}, {0.1, 1, 0.2});
+        viewed = look_at({0.1, 0.7, 3.3}, {0.2, -0.1, 0.3}, {0.1, 1, 0.2});
         wide = perspective(47.3, 1.37, 0.11, 77.7, true);
         skew = frustum(-0.1, 0.3, -0.7, 0.2, 0.1, 33);
         box = orthographic(-0.1, 0.3, -0.7, 0.2, 0.1, 33);
         moved = translate(1e-310, 0.1, 7);
         scaled = scale(1e-310, 0.1, 7);
-        product = tiny * seen * turned;
+        product = tiny * viewed * turned;
         shadow = planar_shadow({0.1, 0.9, 0.2, 0.3}, light);
-        calibrated = calibrated_camera({333.3, 313.1, 100.7, 77.3, 201, 151}, seen, 0.1, 33);
+        calibrated = calibrated_camera({333.3, 313.1, 100.7, 77.3, 201, 151}, viewed, 0.1, 33);
       },
       [&] {
-        return bits_of({turned, seen, wide, skew, box, moved, scaled, product, shadow, calibrated.view,
+        return bits_of({turned, viewed, wide, skew, box, moved, scaled, product, shadow, calibrated.view,
                         calibrated.projection});
       });
 }
@@ -144,8 +118,13 @@ struct ReadBack {
 
   explicit ReadBack(const FrameBufferFormat& f) {
     const std::size_t pixels = static_cast<std::size_t>(f.width * f.height);
-    words.resize(pixels), depth_words.resize(pixels), shown.resize(4 * pixels), stencil.resize(pixels),
-        depth.resize(pixels), view_depth.resize(pixels), accumulation.resize(4 * pixels);
+    words.resize(pixels);
+    depth_words.resize(pixels);
+    shown.resize(4 * pixels);
+    stencil.resize(pixels);
+    depth.resize(pixels);
+    view_depth.resize(pixels);
+    accumulation.resize(4 * pixels);
   }
   void read(const FrameBuffer& buffer, const Camera& camera) {
     const FrameBufferFormat& f = buffer.format();
@@ -175,11 +154,20 @@ struct ReadBack {
 std::vector<FrameBufferFormat> formats() {
   const FrameBufferFormat base{.width = 90, .height = 60, .accumulation_bits = 32};
   std::vector<FrameBufferFormat> all(6, base);
-  all[1].depth = DepthFormat::unorm16, all[1].color_bits = 15, all[1].dither = Dither::bayer4;
-  all[2].depth = DepthFormat::unorm32, all[2].alpha_bits = 8, all[2].accumulation_bits = 16;
-  all[3].depth = DepthFormat::float32, all[3].samples = 4;
-  all[4].color_mode = ColorMode::index, all[4].color_bits = 8, all[4].accumulation_bits = 0;
-  all[5].depth = DepthFormat::none, all[5].stencil_bits = 0, all[5].color_bits = 2;
+  all[1].depth = DepthFormat::unorm16;
+  all[1].color_bits = 15;
+  all[1].dither = Dither::bayer4;
+  all[2].depth = DepthFormat::unorm32;
+  all[2].alpha_bits = 8;
+  all[2].accumulation_bits = 16;
+  all[3].depth = DepthFormat::float32;
+  all[3].samples = 4;
+  all[4].color_mode = ColorMode::index;
+  all[4].color_bits = 8;
+  all[4].accumulation_bits = 0;
+  all[5].depth = DepthFormat::none;
+  all[5].stencil_bits = 0;
+  all[5].color_bits = 2;
   return all;
 }
 
@@ -199,7 +187,8 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfAFrame) {
     for (const unsigned mode : HostModes::all()) {
       FrameBuffer buffer(format);
       FrameBuffer presented(format);
-      Frame frame(buffer), shown(presented);
+      Frame frame(buffer);
+      Frame shown(presented);
       scene.record(frame);
       scene.record(shown);
       ReadBack found(format);
@@ -254,11 +243,13 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfAFrameRecordedInIt) {
   shadow.shadow_on = ShadowOn{.plane = {0.1, 0.9, 0.2, 0.3}, .light = 1, .color = {0.2f, 0.1f, 0.1f, 1}};
   scaled.transform = scale(1e39, 1e39, 0.37);
   scaled.shading = Shading::flat;
-  points.front_mode = PolygonMode::point, points.point_size = 3.7f;
+  points.front_mode = PolygonMode::point;
+  points.point_size = 3.7f;
   points.polygon_offset = {0.7f, 3.3f};
   Light spot;
   spot.position = {0.3f, 1.7f, 2.2f, 0.9f};
-  spot.spot_cutoff = 61, spot.spot_exponent = 2.7f;
+  spot.spot_cutoff = 61;
+  spot.spot_exponent = 2.7f;
   const std::vector<Light> lights{Light{}, spot};
   const Camera camera{.view = look_at({0.1, 0.2, 1.3}, {0, 0, 0}, {0, 1, 0}),
                       .projection = perspective(77, 1.5, 0.1, 9)};
@@ -306,155 +297,6 @@ TEST(FloatingPointEnvironment, ChangesNoBitOfAFrameRecordedInIt) {
         found.read(buffer, camera);
       },
       [&] { return reasons + std::to_string(found.hash()); });
-}
-
-// Invalid input is rejected with the same message: no trap may fire for a comparison with NaN. Dropped
-// primitives fire no trap either.
-TEST(FloatingPointEnvironment, NeitherTrapsOnNorChangesInvalidInput) {
-  std::vector<std::function<void()>> wrong;
-  const auto draw = [&](const std::function<void(DrawState&)>& change) {
-    DrawState state;
-    change(state);
-    wrong.push_back([state] {
-      FrameBuffer buffer({.width = 8, .height = 8});
-      static const MeshData mesh = whole_window();
-      Frame(buffer).draw(mesh.view(), state);
-    });
-  };
-  for (const float odd : {kNan, kInfinity, -kInfinity}) {
-    draw([&](DrawState& s) { s.depth_near = double{odd}; });
-    draw([&](DrawState& s) { s.material.diffuse.g = odd; });
-    draw([&](DrawState& s) { s.material.shininess = odd; });
-    draw([&](DrawState& s) { s.transform.m[7] = double{odd}; });
-    draw([&](DrawState& s) { s.point_size = odd; });
-    draw([&](DrawState& s) { s.polygon_offset.units = odd; });
-    draw([&](DrawState& s) { s.alpha_test = AlphaTest{.ref = odd}; });
-    draw([&](DrawState& s) { s.blend = BlendState{.color = {odd, 0, 0, 0}}; });
-    draw([&](DrawState& s) { s.shadow_on = ShadowOn{.plane = {0, double{odd}, 0, 1}}; });
-    const Clear clear{.depth = double{odd}};
-    const Clear color{.color = Color{odd, 0, 0, 1}};
-    const Accum accum{.value = double{odd}};
-    Camera camera;
-    camera.projection.m[3] = double{odd};
-    Light light;
-    light.spot_cutoff = odd;
-    const Bitmap bitmap{
-        .bits = reinterpret_cast<const std::uint8_t*>("x"), .width = 1, .height = 1, .x = double{odd}};
-    const PixelImage image{.pixels = reinterpret_cast<const std::uint8_t*>("abcd"),
-                           .width = 1,
-                           .height = 1,
-                           .zoom_x = double{odd}};
-    wrong.push_back([=] {
-      FrameBuffer b({.width = 8, .height = 8});
-      Frame(b).clear(clear);
-    });
-    wrong.push_back([=] {
-      FrameBuffer b({.width = 8, .height = 8});
-      Frame(b).clear(color);
-    });
-    wrong.push_back([=] {
-      FrameBuffer b({.width = 8, .height = 8, .accumulation_bits = 16});
-      Frame(b).accumulate(accum);
-    });
-    wrong.push_back([=] {
-      FrameBuffer b({.width = 8, .height = 8});
-      Frame(b).set_camera(camera);
-    });
-    wrong.push_back([=] {
-      FrameBuffer b({.width = 8, .height = 8});
-      Frame(b).set_lights({light});
-    });
-    wrong.push_back([=] {
-      FrameBuffer b({.width = 8, .height = 8});
-      Frame(b).draw_bitmap(bitmap);
-    });
-    wrong.push_back([=] {
-      FrameBuffer b({.width = 8, .height = 8});
-      Frame(b).draw_image(image);
-    });
-    wrong.push_back([=] {
-      FrameBuffer b({.width = 8,
-                     .height = 8,
-                     .color_mode = ColorMode::index,
-                     .color_bits = 2,
-                     .palette = {{odd, 0, 0, 1}}});
-    });
-    wrong.push_back([=] { (void)perspective(double{odd}, 1, 0.1, 10); });
-    wrong.push_back([=] { (void)look_at({0, 0, double{odd}}, {0, 0, 0}, {0, 1, 0}); });
-    wrong.push_back([=] { (void)rotate(10, double{odd}, 0, 1); });
-    wrong.push_back([=] { (void)orthographic(double{odd}, 1, 0, 1, 0, 1); });
-    wrong.push_back([=] { (void)frustum(0, double{odd}, 0, 1, 0.1, 1); });
-    wrong.push_back([=] { (void)calibrated_camera({1, double{odd}, 0, 0, 4, 4}, {}, 0.1, 10); });
-  }
-  std::vector<std::string> messages;
-  expect_the_same_in_every_mode(
-      [&] {
-        messages.clear();
-        for (const auto& act : wrong) messages.push_back(error_of(act).value_or("no error"));
-      },
-      [&] { return messages; });
-  EXPECT_EQ(std::count(messages.begin(), messages.end(), "no error"), 0);
-
-  // A mesh of such vertices, with such normals and texture coordinates.
-  MeshData mesh = whole_window();
-  mesh.normals = {0, 0, 1, kNan, 0, 1, 0, kInfinity, 0, 0, 0, 1};
-  mesh.texcoords = {0, 0, kNan, 0, 3e38f, -3e38f, kDenormal, 0};
-  mesh.positions[4] = 3e38f;
-  FrameStats stats;
-  std::vector<std::uint32_t> words(64);
-  expect_the_same_in_every_mode(
-      [&] {
-        FrameBuffer buffer({.width = 8, .height = 8});
-        Frame frame(buffer);
-        frame.draw(mesh.view());
-        stats = Renderer({.threads = 1}).finish(frame);
-        buffer.read_packed_colors(words);
-      },
-      [&] { return std::pair(words, stats.dropped_non_finite); });
-}
-
-TEST(FloatingPointEnvironment, IsRestoredAfterAFailedFrame) {
-  FrameBuffer buffer({.width = 80, .height = 80});
-  FrameBuffer lost({.width = 8, .height = 8});
-  const MeshData mesh = whole_window();
-  bool stops = false;
-  Renderer renderer({.threads = 1, .progress = [&](double) { return !stops; }});
-  Renderer logs({.threads = 1, .log = [](LogLevel level, std::string_view) {
-                   if (level == LogLevel::debug) throw std::runtime_error("full");
-                 }});
-  Frame frame(lost);
-  frame.clear({.color = Color{}});
-  frame.keep({});
-  renderer.finish(frame);
-  stops = true;
-  int failures = 0;
-  expect_the_same_in_every_mode(
-      [&] {
-        failures = 0;
-        Frame missing(lost);
-        Frame cancelled(buffer);
-        Frame logged(buffer);
-        missing.draw(mesh.view());
-        cancelled.draw(mesh.view());
-        logged.draw(mesh.view());
-        try {
-          renderer.finish(missing);
-        } catch (const Error&) {
-          ++failures;
-        }
-        try {
-          renderer.finish(cancelled);
-        } catch (const Cancelled&) {
-          ++failures;
-        }
-        try {
-          logs.finish(logged);
-        } catch (const std::runtime_error&) {
-          ++failures;
-        }
-      },
-      [&] { return failures; });
-  EXPECT_EQ(failures, 3);
 }
 
 /// Host threads, each with its own floating-point mode.

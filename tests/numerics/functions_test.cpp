@@ -91,14 +91,16 @@ TEST(MathFunctions, PaletteDistances) {
     for (int n = 0; n < (long_tests() ? 10000000 : 100000); ++n) {
       // Random colours, and colours nearly halfway between two entries.
       float at[3];
-      const Rgb8 a = palette.entries[random() % palette.entries.size()],
-                 b = palette.entries[random() % palette.entries.size()];
+      const Rgb8 a = palette.entries[random() % palette.entries.size()];
+      const Rgb8 b = palette.entries[random() % palette.entries.size()];
       const bool between = random() % 2 != 0;
       const double to_b = 0.5 + (random() * 0x1p-32 - 0.5) * 1e-6;
       const auto mixed = [&](int of_a, int of_b) {
         return static_cast<float>(between ? (of_a + (of_b - of_a) * to_b) / 255 : random() * 0x1p-32);
       };
-      at[0] = mixed(a.r, b.r), at[1] = mixed(a.g, b.g), at[2] = mixed(a.b, b.b);
+      at[0] = mixed(a.r, b.r);
+      at[1] = mixed(a.g, b.g);
+      at[2] = mixed(a.b, b.b);
       const auto squared = [&](const Rgb8& e) {
         const long double r = at[0] - e.r / 255.0L;
         const long double g = at[1] - e.g / 255.0L;

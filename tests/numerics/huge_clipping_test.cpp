@@ -19,18 +19,19 @@ constexpr int kSide = 64;
 
 // Expected coverage of the pixels. If moving a pixel by 1/256 pixel (snapping is half of that) changes the
 // result, both results count as right.
-template <class IsSeen>
-std::vector<Cover> seen_pixels(const IsSeen& is_seen) {
+template <class IsVisible>
+std::vector<Cover> expected_covers(const IsVisible& is_visible) {
   std::vector<Cover> covers;
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) {
-      int seen = 0;
+      int visible = 0;
       for (const auto& [dx, dy] : {std::pair{-1, -1}, {1, -1}, {-1, 1}, {1, 1}})
-        seen += is_seen((x + 0.5L + dx / 256.0L) * 2 / kSide - 1, 1 - (y + 0.5L + dy / 256.0L) * 2 / kSide)
-                    ? 1
-                    : 0;
-      if (seen == 4) covers.push_back(Cover::once);
-      else covers.push_back(seen == 0 ? Cover::never : Cover::at_most_once);
+        visible +=
+            is_visible((x + 0.5L + dx / 256.0L) * 2 / kSide - 1, 1 - (y + 0.5L + dy / 256.0L) * 2 / kSide)
+                ? 1
+                : 0;
+      if (visible == 4) covers.push_back(Cover::once);
+      else covers.push_back(visible == 0 ? Cover::never : Cover::at_most_once);
     }
   return covers;
 }
@@ -62,7 +63,7 @@ void expect_ground_planes(const std::string& what, bool reversed) {
           const int scale = random.between(-8, 8) * 100;
           if (is_tessera)
             for (double& element : draw.transform->m) element = std::ldexp(element, scale);
-          const auto is_seen = [&](long double x, long double y) {
+          const auto is_visible = [&](long double x, long double y) {
             // In eye space, and how far down that is in the plane's space.
             const long double to[] = {x, y, -1};
             const long double down = -(eye.m[1] * to[0] + eye.m[5] * to[1] + eye.m[9] * to[2]);
@@ -70,7 +71,7 @@ void expect_ground_planes(const std::string& what, bool reversed) {
           };
           // Slivers may also fold along the horizon.
           count({draw}, "plane " + std::to_string(n) + " scale " + std::to_string(scale),
-                {.pixels = seen_pixels(is_seen), .folds_along_cuts = true});
+                {.pixels = expected_covers(is_visible), .folds_along_cuts = true});
         }
       });
 }
@@ -93,16 +94,16 @@ TEST(HugeClipping, EdgesAreExact) {
           const double x = random.between(-15, 15), y = random.between(-15, 15);
           if (x == 0 && y == 0) continue;
           CountedMesh mesh;
-          const std::uint32_t a = mesh.add_vertex(std::ldexp(x, size), std::ldexp(y, size)),
-                              b = mesh.add_vertex(std::ldexp(-x, size - apart), std::ldexp(-y, size - apart));
-          const std::uint32_t left = mesh.add_vertex(std::ldexp(-y, size), std::ldexp(x, size)),
-                              right = mesh.add_vertex(std::ldexp(y, size), std::ldexp(-x, size));
+          const std::uint32_t a = mesh.add_vertex(std::ldexp(x, size), std::ldexp(y, size));
+          const std::uint32_t b = mesh.add_vertex(std::ldexp(-x, size - apart), std::ldexp(-y, size - apart));
+          const std::uint32_t left = mesh.add_vertex(std::ldexp(-y, size), std::ldexp(x, size));
+          const std::uint32_t right = mesh.add_vertex(std::ldexp(y, size), std::ldexp(-x, size));
           mesh.add_triangle(a, left, b);
           const bool both = random.coin();
           if (both) mesh.add_triangle(b, right, a);
           mesh.shuffle(random);
           count({counting(mesh)}, "edge " + std::to_string(n),
-                {.pixels = seen_pixels(
+                {.pixels = expected_covers(
                      [&](long double px, long double py) { return both || x * py - y * px > 0; })});
         }
       });

@@ -64,8 +64,8 @@ void expect_planes(const std::string& what, bool reversed) {
           if (n % 3 == 0) plane.to_u.z = to_near * plane.to_u.w;
           if (n % 6 == 0) plane.to_v.z = to_near * plane.to_v.w;
           const SquareViewport view{0, 0, kSide};
-          const std::optional<VisiblePlane> seen = plane.seen(view);
-          if (!seen) continue;
+          const std::optional<VisiblePlane> visible = plane.visible(view);
+          if (!visible) continue;
           const int size = random.between(10, 110);
           const int exponent =
               is_tessera ? random.one_of({0, 0, random.between(-800, 1000 - size), 970 - size}) : 0;
@@ -78,8 +78,8 @@ void expect_planes(const std::string& what, bool reversed) {
             // Around a random vertex; there two edges may be closer to each other in the window than snapping
             // moves them.
             const int middle = random.between(-4, size - 1);
-            const double u = std::ldexp(random.unit() - 0.5, middle),
-                         v = std::ldexp(random.unit() - 0.5, std::min(middle, size_v));
+            const double u = std::ldexp(random.unit() - 0.5, middle);
+            const double v = std::ldexp(random.unit() - 0.5, std::min(middle, size_v));
             mesh.add_vertex(u, v, 0, 1);
             for (const std::uint32_t k : {0, 1, 2, 3}) mesh.add_triangle(4, k, (k + 1) % 4);
           } else {
@@ -90,14 +90,15 @@ void expect_planes(const std::string& what, bool reversed) {
           mesh.shuffle(random);
           CaseDraw draw = counting(mesh);
           draw.transform = matrix_of(plane, exponent);
-          count({draw},
-                "plane " + std::to_string(n) + " of 2^" + std::to_string(size) + " times 2^" +
-                    std::to_string(exponent),
-                {.pixels = covers_of(
-                     plane.region(*seen, std::int64_t{1} << std::min(size_v, kMaxOracleExponent), reversed),
-                     kSide, kSide, view),
-                 .overlaps = [&] { return snapping_folds(mesh, view, reversed, *draw.transform); },
-                 .folds_along_cuts = true});
+          count(
+              {draw},
+              "plane " + std::to_string(n) + " of 2^" + std::to_string(size) + " times 2^" +
+                  std::to_string(exponent),
+              {.pixels = covers_of(
+                   plane.region(*visible, std::int64_t{1} << std::min(size_v, kMaxOracleExponent), reversed),
+                   kSide, kSide, view),
+               .overlaps = [&] { return snapping_folds(mesh, view, reversed, *draw.transform); },
+               .folds_along_cuts = true});
         }
       });
 }
@@ -117,16 +118,16 @@ TEST(HugePlanes, HaveTheColorAtTheOrigin) {
     MeshRandom random(n);
     const ClipPlane plane = random_plane(random);
     const SquareViewport view{0, 0, kSide};
-    const std::optional<VisiblePlane> seen = plane.seen(view);
-    if (!seen) continue;
+    const std::optional<VisiblePlane> visible = plane.visible(view);
+    if (!visible) continue;
     const int size = random.between(40, 110);
     const Corners corners(random, size, size);
     std::vector<float> positions, colors;
     std::vector<std::uint32_t> indices;
     for (std::uint32_t k = 0; k < 3; ++k) {
       // A triangle that contains the origin: two corners, and a third opposite to their midpoint.
-      const float u = k < 2 ? corners.at[k][0] : -(corners.at[0][0] + corners.at[1][0]) / 2,
-                  v = k < 2 ? corners.at[k][1] : -(corners.at[0][1] + corners.at[1][1]) / 2;
+      const float u = k < 2 ? corners.at[k][0] : -(corners.at[0][0] + corners.at[1][0]) / 2;
+      const float v = k < 2 ? corners.at[k][1] : -(corners.at[0][1] + corners.at[1][1]) / 2;
       positions.insert(positions.end(), {u, v, 0, 1});
       for (int c = 0; c < 3; ++c) colors.push_back(static_cast<float>(random.between(0, 255)) / 255);
       colors.push_back(1);
@@ -142,7 +143,7 @@ TEST(HugePlanes, HaveTheColorAtTheOrigin) {
     // At the origin the weights of the vertices are 1/4, 1/4 and 1/2.
     const std::vector<std::uint32_t> words = packed_colors(buffer);
     // Visible part of a far larger triangle without the horizon.
-    const ExactRegion region = plane.region(*seen, 1 << 12);
+    const ExactRegion region = plane.region(*visible, 1 << 12);
     for (std::size_t i = 0; i < words.size(); ++i) {
       const auto [x, y] = center_of(static_cast<int>(i % kSide), static_cast<int>(i / kSide), kSide, view);
       if (region.side(x, y) != ExactRegion::Side::in) continue;

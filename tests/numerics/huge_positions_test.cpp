@@ -72,8 +72,8 @@ TEST(HugePositions, NoPixelIsInTheWrongHalf) {
                       const CasePicture& picture =
                           renderer->draw({{.positions = {-far, 0, 0, 1, far, 0, 0, 1, 0, sign * far, 0, 1}}});
                       for (std::size_t i = 0; i < picture.colors.size(); ++i) {
-                        const bool is_seen = picture.colors[i][0] > 0.5f;
-                        wrong += is_seen == ((sign > 0) == (i < picture.colors.size() / 2)) ? 0 : 1;
+                        const bool is_covered = picture.colors[i][0] > 0.5f;
+                        wrong += is_covered == ((sign > 0) == (i < picture.colors.size() / 2)) ? 0 : 1;
                       }
                     }
                   return wrong;
@@ -105,10 +105,11 @@ TEST(HugePositions, LinesCrossTheWholeWindow) {
         const auto words = words_of(mesh_of(Primitive::lines, positions), unlit({1, 0, 0, 1}), {},
                                     InstructionSet::automatic);
         for (int y = 0; y < kSide; ++y)
-          for (int x = 0; x < kSide; ++x)
-            ASSERT_EQ(words[static_cast<std::size_t>(y * kSide + x)],
-                      (standing ? x == kSide / 2 : y == kSide / 2 - 1) ? kRed : 0)
+          for (int x = 0; x < kSide; ++x) {
+            const bool is_on_line = standing ? x == kSide / 2 : y == kSide / 2 - 1;
+            ASSERT_EQ(words[static_cast<std::size_t>(y * kSide + x)], is_on_line ? kRed : 0)
                 << far << ", " << end << ": " << x << ", " << y;
+          }
       }
 }
 

@@ -42,18 +42,22 @@ struct InterfaceCase {
     }();
     image.pixels = pixels.pixels = bitmap.bits = texels.data();
     Random random(22);
-    for (int i = 0; i < 30;
-         ++i) {  // Triangles, lines or points; some reach beyond the near plane and the window.
-      for (int c = 0; c < 3; ++c)
-        data.positions.push_back(random.between(-2, 2)), data.normals.push_back(random.between(-1, 1));
+    // Triangles, lines or points; some reach beyond the near plane and the window.
+    for (int i = 0; i < 30; ++i) {
+      for (int c = 0; c < 3; ++c) {
+        data.positions.push_back(random.between(-2, 2));
+        data.normals.push_back(random.between(-1, 1));
+      }
       for (int c = 0; c < 4; ++c) data.colors.push_back(random.between(0, 1));
       for (int c = 0; c < 2; ++c) data.texcoords.push_back(random.between(-1, 2));
       data.color_indices.push_back(random.between(0, 300));
     }
     lights.resize(2);
     lights[1].position = {0.5f, 1, 2, 1};
-    lights[1].spot_cutoff = 50, lights[1].spot_exponent = 3;
-    lights[1].attenuation_linear = 0.2f, lights[1].attenuation_quadratic = 0.1f;
+    lights[1].spot_cutoff = 50;
+    lights[1].spot_exponent = 3;
+    lights[1].attenuation_linear = 0.2f;
+    lights[1].attenuation_quadratic = 0.1f;
     model.local_viewer = model.two_sided = true;
     state.material.specular = {0.4f, 0.5f, 0.6f, 1};
     state.material.emission = {0.1f, 0, 0.05f, 1};
@@ -62,7 +66,8 @@ struct InterfaceCase {
     state.back_material->diffuse = {0.2f, 0.9f, 0.3f, 0.7f};
     state.viewport = Rect{3, 2, 40, 30};
     state.scissor = Rect{6, 4, 33, 25};
-    state.point_size = 4.5f, state.line_width = 3;
+    state.point_size = 4.5f;
+    state.line_width = 3;
     fragments.scissor = Rect{1, 1, 44, 33};
   }
 };
@@ -150,21 +155,25 @@ inline std::vector<InterfaceCase> interface_cases() {
   all[1].name = "phong, textured, blended";
   all[1].state.shading = Shading::phong;
   all[1].textured = true;
-  all[1].state.texture_env = TextureEnv::blend, all[1].state.texture_env_color = {0.3f, 0.6f, 0.9f, 1};
+  all[1].state.texture_env = TextureEnv::blend;
+  all[1].state.texture_env_color = {0.3f, 0.6f, 0.9f, 1};
   all[1].state.blend = BlendState{.src = BlendFactor::constant_color,
                                   .dst = BlendFactor::one_minus_constant_alpha,
                                   .color = {0.2f, 0.4f, 0.6f, 0.5f}};
   all[1].state.alpha_test = AlphaTest{.ref = 0.1f};
   all[1].state.color_material = ColorMaterial::diffuse;
-  all[1].format.alpha_bits = 8, all[1].format.accumulation_bits = 16;
+  all[1].format.alpha_bits = 8;
+  all[1].format.accumulation_bits = 16;
   all[1].clear.accumulation = Color{0.1f, -0.2f, 0.3f, 0.4f};
   all[1].accum = Accum{.op = AccumOp::accum, .value = 0.4, .scissor = Rect{2, 3, 30, 20}};
   all[2].name = "flat lines, stencil, 4 samples";
   all[2].state.shading = Shading::flat;
   all[2].data.primitive = Primitive::lines;
-  all[2].format.samples = 4, all[2].format.depth = DepthFormat::float32;
+  all[2].format.samples = 4;
+  all[2].format.depth = DepthFormat::float32;
   all[2].clear.depth = 0.8;
-  all[2].state.depth_near = 0.1, all[2].state.depth_far = 0.9;
+  all[2].state.depth_near = 0.1;
+  all[2].state.depth_far = 0.9;
   all[2].state.stencil =
       StencilState{.front = {.func = Compare::gequal, .ref = 5, .zpass = StencilOp::incr_wrap},
                    .back = StencilFace{.ref = 2, .zfail = StencilOp::replace}};
@@ -181,16 +190,19 @@ inline std::vector<InterfaceCase> interface_cases() {
   all[3].state.back_material->index_ramp = {{30, 20, 10}};
   all[3].clear = {.index = 7u, .depth = 1.0};
   all[4].name = "outlines with an offset, a logic operation";
-  all[4].state.front_mode = PolygonMode::line, all[4].state.back_mode = PolygonMode::point;
+  all[4].state.front_mode = PolygonMode::line;
+  all[4].state.back_mode = PolygonMode::point;
   all[4].state.polygon_offset = {0.5f, 2};
   all[4].state.logic_op = LogicOp::bit_xor;
   all[4].state.provoking_vertex = ProvokingVertex::first;
-  all[4].format.depth = DepthFormat::unorm32, all[4].format.accumulation_bits = 32,
+  all[4].format.depth = DepthFormat::unorm32;
+  all[4].format.accumulation_bits = 32;
   all[4].format.dither = Dither::bayer4;
   all[4].accum = Accum{.op = AccumOp::mult, .value = 2};
   all[5].name = "a shadow, reversed";
   all[5].state.shadow_on = ShadowOn{.plane = {0.1, 1, 0.2, 2}, .light = 1, .color = {0.1f, 0.2f, 0.3f, 1}};
-  all[5].camera.projection = perspective(50, 48.0 / 36, 1, 9, true), all[5].camera.reversed = true;
+  all[5].camera.projection = perspective(50, 48.0 / 36, 1, 9, true);
+  all[5].camera.reversed = true;
   all[5].state.depth.test = Compare::greater;
   all[5].clear.depth = 0.0;
   all[5].format.depth = DepthFormat::unorm16;
@@ -198,7 +210,8 @@ inline std::vector<InterfaceCase> interface_cases() {
   all[6].state.polygon_offset = {0.5f, 2};
   all[6].textured = true;
   all[6].sampler.wrap_s = TextureWrap::mirrored_repeat;
-  all[6].format.samples = 8, all[6].format.color_bits = 16;
+  all[6].format.samples = 8;
+  all[6].format.color_bits = 16;
   all[6].state.color_material = ColorMaterial::ambient_and_diffuse;
   all[6].target.region = Rect{5, 6, 20, 20};
   return all;

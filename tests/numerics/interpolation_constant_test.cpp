@@ -51,14 +51,14 @@ TEST(InterpolationConstant, ColorsEqualTheVertexColor) {
                   const auto renderer = make({.width = kSide, .height = kSide});
                   Rng rng(51);
                   long double worst = 0;
-                  long double seen = 0;
+                  long double visible_pixels = 0;
                   for (int n = 0; n < (is_tessera && long_tests() ? 50000 : 1000); ++n) {
                     CaseDraw draw{.positions = random_positions(rng)};
                     const float c[3] = {random_constant(rng), random_constant(rng), 1};
                     for (int k = 0; k < 3; ++k) draw.colors.insert(draw.colors.end(), {c[0], c[1], c[2], 1});
                     for (const std::array<float, 3>& color : renderer->draw({draw}).colors) {
                       if (color[2] == 0) continue;
-                      ++seen;
+                      ++visible_pixels;
                       for (std::size_t k = 0; k < 3; ++k) {
                         // Mesa's colours are not rounded to levels.
                         const float expected =
@@ -67,7 +67,7 @@ TEST(InterpolationConstant, ColorsEqualTheVertexColor) {
                       }
                     }
                   }
-                  EXPECT_GT(seen, 1e5);
+                  EXPECT_GT(visible_pixels, 1e5);
                   return worst;
                 });
 }
@@ -80,9 +80,9 @@ TEST(InterpolationConstant, WhiteStaysWhiteForAnyRatioOfW) {
                   const auto renderer = make({.width = kSide, .height = kSide});
                   Rng rng(57);
                   long double wrong = 0;
-                  long double seen = 0;
+                  long double visible_pixels = 0;
                   constexpr double kRatios[] = {20, 40, 63, 64, 65, 80, 120, 135, 170};
-                  const auto centre = [&] {
+                  const auto center = [&] {
                     return static_cast<std::int64_t>(kSide * rng.unit()) * kGrid + kGrid / 2;
                   };
                   for (int n = 0; n < 400; ++n) {
@@ -92,8 +92,8 @@ TEST(InterpolationConstant, WhiteStaysWhiteForAnyRatioOfW) {
                     CaseDraw with_ratio;
                     CaseDraw without;
                     for (int k = 0; k < 3; ++k) {
-                      const double x = clip_x(centre(), kSide);
-                      const double y = clip_y(centre(), kSide);
+                      const double x = clip_x(center(), kSide);
+                      const double y = clip_y(center(), kSide);
                       const double w = std::exp2(k == heavy || k == second ? -60 : ratio - 60);
                       for (const double c : {w * x, w * y, 0.0, w})
                         with_ratio.positions.push_back(static_cast<float>(c));
@@ -105,11 +105,11 @@ TEST(InterpolationConstant, WhiteStaysWhiteForAnyRatioOfW) {
                     const auto expected = renderer->draw({without}).colors;
                     const auto found = renderer->draw({with_ratio}).colors;
                     for (std::size_t i = 0; i < expected.size(); ++i) {
-                      seen += expected[i][0];
+                      visible_pixels += expected[i][0];
                       wrong += expected[i] == found[i] ? 0 : 1;
                     }
                   }
-                  EXPECT_GT(seen, 1e5);
+                  EXPECT_GT(visible_pixels, 1e5);
                   return wrong;
                 });
 }
@@ -128,19 +128,22 @@ TEST(InterpolationConstant, TextureCoordinatesGiveOneColor) {
                                                 .nearest_texel = nearest});
                     Rng rng(52);
                     long double worst = 0;
-                    long seen = 0;
+                    long visible_pixels = 0;
                     for (int n = 0; n < (is_tessera && long_tests() ? 50000 : 1000); ++n) {
                       CaseDraw draw{.positions = random_positions(rng), .textured = true};
-                      const float s = rng.maybe() ? 0.5f : random_constant(rng),
-                                  t = rng.maybe() ? 0.5f : random_constant(rng);
+                      const float s = rng.maybe() ? 0.5f : random_constant(rng);
+                      const float t = rng.maybe() ? 0.5f : random_constant(rng);
                       for (int k = 0; k < 3; ++k) draw.texcoords.insert(draw.texcoords.end(), {s, t});
                       float low = 2, high = 0;
                       for (const std::array<float, 3>& color : renderer->draw({draw}).colors)
-                        if (color[0] > 0)
-                          low = std::min(low, color[0]), high = std::max(high, color[0]), ++seen;
+                        if (color[0] > 0) {
+                          low = std::min(low, color[0]);
+                          high = std::max(high, color[0]);
+                          ++visible_pixels;
+                        }
                       if (high > 0) update_worst(worst, 255 * (static_cast<long double>(high) - low));
                     }
-                    EXPECT_GT(seen, 100000);
+                    EXPECT_GT(visible_pixels, 100000);
                     return worst;
                   });
 }
@@ -155,7 +158,7 @@ constexpr ShadingPath kShadingPaths[] = {
     {"blended", [](DrawState& s, const Texture&) { s.blend = BlendState{}; }},
     {"tested",
      [](DrawState& s, const Texture&) {
-       s.alpha_test = AlphaTest{.func = Compare::equal, .ref = 0.7f},
+       s.alpha_test = AlphaTest{.func = Compare::equal, .ref = 0.7f};
        s.stencil = StencilState{.front = {.zpass = StencilOp::incr}};
      }},
     {"two lights' colours", [](DrawState& s, const Texture&) { s.color_material = ColorMaterial::diffuse; }},
@@ -168,7 +171,7 @@ TEST(InterpolationConstant, EveryPixelPathGivesOneColor) {
   const std::uint8_t texels[4] = {32, 255, 255, 32};
   const Texture texture({.pixels = texels, .width = 2, .height = 2, .channels = 1});
   Rng rng(53);
-  std::size_t seen = 0;
+  std::size_t visible_pixels = 0;
   for (const InstructionSet set : available_instruction_sets())
     for (const bool defers : {true, false})
       for (const int samples : {1, 4}) {
@@ -235,12 +238,12 @@ TEST(InterpolationConstant, EveryPixelPathGivesOneColor) {
                       << path.name << (lit ? ", lit, " : ", ") << static_cast<int>(shading) << ", "
                       << name(set) << ", " << samples << " samples, pixel " << i;
                   ASSERT_NE(words[i], 0u);
-                  ++seen;
+                  ++visible_pixels;
                 }
               }
         }
       }
-  EXPECT_GT(seen, 100000u);
+  EXPECT_GT(visible_pixels, 100000u);
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ TEST(InterpolationRange, WeightsAreWithinTheirRoundings) {
     update_worst_weight(worst[is_affine], t, {v[0].rw, v[1].rw, v[2].rw}, at, p);
     ++count[is_affine];
   });
-  for (const long double seen : count) EXPECT_GT(seen, 50000);
+  for (const long double pixels : count) EXPECT_GT(pixels, 50000);
   expect_within("barycentric coordinates, linear in the window", worst[1], 3, "2^-24 of themselves");
   expect_within("barycentric coordinates, w apart by up to 10^6", worst[0], 12, "2^-24 of themselves");
 }
@@ -170,7 +170,7 @@ TEST(InterpolationRange, PerspectiveAppliesToReciprocalsUpTo2To120) {
           ++count[perspective];
         },
         800, {largest, 4});
-  for (const long double seen : count) EXPECT_GT(seen, 10000);
+  for (const long double pixels : count) EXPECT_GT(pixels, 10000);
   expect_within("barycentric coordinates, 1/w beyond 2^-120 .. 2^120: linear in the window", worst[0], 3,
                 "2^-24 of themselves");
   expect_within("barycentric coordinates, 1/w just within", worst[1], 12, "2^-24 of themselves");

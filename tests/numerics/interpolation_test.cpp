@@ -61,7 +61,7 @@ template <class Pixel>
 void for_each_pixel(const MakeRenderer& make, WindowShape shape, int octaves, int rounds,
                     const Colors& colors, const Pixel& pixel) {
   Rng rng(80 + static_cast<std::uint32_t>(shape));
-  std::size_t seen = 0;
+  std::size_t visible_pixels = 0;
   for (const Window& window : kWindows) {
     const auto renderer = make({.width = window.width, .height = window.height});
     const std::size_t count = triangles_per_frame(shape);
@@ -92,11 +92,11 @@ void for_each_pixel(const MakeRenderer& make, WindowShape shape, int octaves, in
           const auto number = static_cast<std::size_t>(std::lround(color[2] * 255)) - 1;
           if (number >= all.size() || !all[number].triangle.contains(WindowTriangle::center(x, y))) continue;
           pixel(all[number], x, y, color);
-          ++seen;
+          ++visible_pixels;
         }
     }
   }
-  EXPECT_GT(seen, 50u);
+  EXPECT_GT(visible_pixels, 50u);
 }
 
 long double level_of(float stored) { return std::floor(static_cast<long double>(stored) * 255 + 0.5L); }
@@ -200,7 +200,7 @@ TEST(Interpolation, TextureCoordinatesSampleNoTexelOutsideTheRange) {
             const auto renderer = make(format);
             Rng rng(90);
             long double worst = 0;
-            long double seen = 0;
+            long double visible_pixels = 0;
             for (int n = 0; n < (is_tessera && long_tests() ? 20000 : 300); ++n) {
               const WindowTriangle t = random_triangle(rng, WindowShape::centers, kSide, kSide);
               CaseDraw draw{.textured = true};
@@ -222,10 +222,10 @@ TEST(Interpolation, TextureCoordinatesSampleNoTexelOutsideTheRange) {
                   if (color == 0 || !t.contains(WindowTriangle::center(x, y))) continue;
                   const auto taken = static_cast<std::int64_t>(std::lround((color * 255 - 8) / 16));
                   update_worst(worst, low - taken, taken - high);
-                  seen += 1;
+                  visible_pixels += 1;
                 }
             }
-            EXPECT_GT(seen, 1000);
+            EXPECT_GT(visible_pixels, 1000);
             return worst;
           });
 }

@@ -159,8 +159,8 @@ TEST(LightLimits, AnyInputIsLitWithinZeroAndOne) {
     for (int i = 0; i < 16; ++i)
       for (int c = 0; c < 3; ++c) {
         const auto k = static_cast<std::size_t>(c);
-        given[i].normal[k] = batch.field[kNormalX + c][i],
-        given[i].position[k] = batch.field[kPositionX + c][i],
+        given[i].normal[k] = batch.field[kNormalX + c][i];
+        given[i].position[k] = batch.field[kPositionX + c][i];
         given[i].vertex[k] = batch.field[kVertexR + c][i];
       }
     light_points(rng.one_in(4) ? available_isas().back() : available_isas().front())(program, batch, 16);

@@ -240,8 +240,10 @@ struct HighlightFormula {
   bool unit;
   bool squared;
 
-  bool of_square() const {
-    return squared && kind == SpecularModel::blinn && !sharp && (local || !directional);
+  /// Whether the power is applied to the square of the cosine.
+  bool uses_square() const {
+    const bool has_constant_half = directional && !local;
+    return squared && kind == SpecularModel::blinn && !sharp && !has_constant_half;
   }
 
   /// Error of the highlight's cosine, in u: roundings of L and E (towards a point), of the normal, of their
@@ -267,11 +269,12 @@ struct HighlightFormula {
       return sharp ? of_difference(l / exact.half_length + 1 + n + 1) : 1 + n + 3;
     // Squared cosines use neither root nor length. Errors: 1 u of the sum of the two cosines, and half of 7 u
     // (its square 1 u, the square of L + E 5 u, their quotient 1 u).
-    if (kind == SpecularModel::blinn)
-      return sharp ? of_difference((l + v) / exact.half_length + 1 + 3.5L + n + 1)
-                   : (n_dot_l + n_dot_v + l + v) / exact.half_length + (squared ? 4.5L : 6.5L);
-    return sharp ? of_difference(l + v + 2 + 2 * n_dot_l + 2 * n + 1)
-                 : 2 * (n_dot_l + n_dot_v) + 2 + l + (local ? v + 3 : 0) + 1;
+    if (kind == SpecularModel::blinn) {
+      if (sharp) return of_difference((l + v) / exact.half_length + 1 + 3.5L + n + 1);
+      return (n_dot_l + n_dot_v + l + v) / exact.half_length + (squared ? 4.5L : 6.5L);
+    }
+    if (sharp) return of_difference(l + v + 2 + 2 * n_dot_l + 2 * n + 1);
+    return 2 * (n_dot_l + n_dot_v) + 2 + l + (local ? v + 3 : 0) + 1;
   }
 };
 
@@ -328,7 +331,7 @@ TEST(LightTerms, Highlights) {
           // Highlights below 2^-32 are skipped.
           update_worst(share, error / (shine *
                                            of_power(cosine_error, exact.highlight_base, y, shine,
-                                                    formula.of_square() ? y / 2 : y) *
+                                                    formula.uses_square() ? y / 2 : y) *
                                            kUnit +
                                        0x1p-31L));
           // If the light is almost opposite to the viewer, L + E consists of rounding errors only.

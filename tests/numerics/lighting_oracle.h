@@ -54,17 +54,17 @@ struct RealLight {
 };
 /// Transforms a light from world to eye space. `view` must be rigid.
 inline RealLight real_light(const Light& l, const Matrix& view = {}) {
-  const auto seen = [&](const Real3& v, Real w) {
+  const auto in_eye_space = [&](const Real3& v, Real w) {
     Real3 s;
     for (std::size_t i = 0; i < 3; ++i)
       s[i] = dot({view.m[4 * i], view.m[4 * i + 1], view.m[4 * i + 2]}, v) + view.m[4 * i + 3] * w;
     return s;
   };
-  const Real3 xyz = seen({l.position[0], l.position[1], l.position[2]}, l.position[3]);
+  const Real3 xyz = in_eye_space({l.position[0], l.position[1], l.position[2]}, l.position[3]);
   RealLight r{real3(l.ambient), real3(l.diffuse), real3(l.specular)};
   r.directional = l.position[3] == 0;
   r.position = r.directional ? normalized(xyz) : xyz * (1 / Real{l.position[3]});
-  r.spot_direction = normalized(seen(real3(l.spot_direction), 0));
+  r.spot_direction = normalized(in_eye_space(real3(l.spot_direction), 0));
   r.spot_exponent = l.spot_exponent;
   r.spot_cutoff = l.spot_cutoff;
   r.attenuation = {l.attenuation_constant, l.attenuation_linear, l.attenuation_quadratic};
@@ -89,7 +89,8 @@ struct LightAtPoint {
   Real spot_cosine = 1;
   Real highlight_base = 0;
   Real half_length = 2;  ///< |L + E|, for Blinn's model
-  RealRange spot{1, 1}, highlight{0, 0};
+  RealRange spot{1, 1};
+  RealRange highlight{0, 0};
 
   LightAtPoint(const RealLight& light, const RealPoint& point, bool local_viewer, SpecularModel kind,
                Real shininess, Real slack) {

@@ -153,7 +153,8 @@ class LitPatches {
     const bool front = patches[static_cast<std::size_t>(p)].front || !model.two_sided;
     const Material& used = front ? material : back_material;
     if (shading == Shading::flat) return lit_color(used, lights, model, point(p, 3), slack, front, view);
-    const RealPoint a = point(p, 0), b = point(p, 2);
+    const RealPoint a = point(p, 0);
+    const RealPoint b = point(p, 2);
     if (shading == Shading::phong)
       return lit_color(used, lights, model,
                        {normalized(a.normal + b.normal), (a.position + b.position) * 0.5L}, slack, front,

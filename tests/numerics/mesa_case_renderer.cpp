@@ -97,8 +97,8 @@ class MesaCases : public CaseRenderer {
   }
 
   void read() {
-    const std::size_t width = static_cast<std::size_t>(format_.width),
-                      height = static_cast<std::size_t>(format_.height);
+    const std::size_t width = static_cast<std::size_t>(format_.width);
+    const std::size_t height = static_cast<std::size_t>(format_.height);
     const std::vector<float> colors = context_.read_colors();
     picture_.colors.resize(width * height);
     for (std::size_t y = 0; y < height; ++y)

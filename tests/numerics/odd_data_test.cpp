@@ -164,7 +164,10 @@ void for_each_way(const Check& check) {
           if (turn % 3 == 1) state.color_material = ColorMaterial::diffuse;
           if (turn % 5 == 4) state.cull = Cull::back;
           FrameBufferFormat format{.width = 61, .height = 47, .samples = samples};
-          if (samples == 1 && turn % 4 == 3) format.color_mode = ColorMode::index, format.color_bits = 8;
+          if (samples == 1 && turn % 4 == 3) {
+            format.color_mode = ColorMode::index;
+            format.color_bits = 8;
+          }
           ++turn;
           check(state, format);
           if (testing::Test::HasFailure()) return;
@@ -207,7 +210,8 @@ TEST(OddMeshArrays, FiniteValuesAreDrawnIdenticallyOnEveryInstructionSet) {
   Random random(25);
   for (const Primitive primitive : kPrimitives)
     for_each_way([&](DrawState state, const FrameBufferFormat& format) {
-      state.viewport = Rect{3, 5, 50, 37}, state.scissor = Rect{7, 6, 43, 33};
+      state.viewport = Rect{3, 5, 50, 37};
+      state.scissor = Rect{7, 6, 43, 33};
       for (const Array& array : arrays()) {
         MeshData odd = mesh_of(primitive);
         for (int k = 0; k < 4; ++k) {
@@ -261,8 +265,10 @@ TEST(OddMeshArrays, IndicesOutOfRangeAreRefusedForEveryPrimitive) {
   for (const Primitive primitive : kPrimitives) {
     MeshData data = mesh_of(primitive);
     std::vector<std::uint16_t> narrow;
-    for (std::uint32_t i = 0; i < kVertices; ++i)
-      data.indices.push_back(i), narrow.push_back(static_cast<std::uint16_t>(i));
+    for (std::uint32_t i = 0; i < kVertices; ++i) {
+      data.indices.push_back(i);
+      narrow.push_back(static_cast<std::uint16_t>(i));
+    }
     Frame frame(buffer);
     const auto error = [&](const Mesh& mesh) { return error_of([&] { frame.draw(mesh); }).value_or(""); };
     for (const std::size_t place :
@@ -316,7 +322,8 @@ TEST(OddMeshArrays, SizesThatWrapAreRefused) {
       mesh.indices.count = wrong;
       EXPECT_TRUE(error_of([&] { frame.draw(mesh); })) << wrong << " indices";
       for (const int bits : {0, -32, 8, 31, 64}) {
-        mesh.indices.count = 6, mesh.indices.bits = bits;
+        mesh.indices.count = 6;
+        mesh.indices.bits = bits;
         EXPECT_THAT(error_of([&] { frame.draw(mesh); }).value_or(""),
                     testing::HasSubstr(std::to_string(bits) + " bits"));
       }

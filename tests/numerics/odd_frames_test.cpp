@@ -47,9 +47,10 @@ TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
     InterfaceCase world = all[random.next() % all.size()];
     SCOPED_TRACE("round " + std::to_string(round) + ", " + world.name);
     world.data.primitive = static_cast<Primitive>(random.next() % 10);
-    if (random.next() % 2 == 0)
-      world.state.front_mode = static_cast<PolygonMode>(random.next() % 3),
+    if (random.next() % 2 == 0) {
+      world.state.front_mode = static_cast<PolygonMode>(random.next() % 3);
       world.state.back_mode = static_cast<PolygonMode>(random.next() % 3);
+    }
     spoil_mesh(world.data, random);
     for (std::size_t k = random.next() % 12; k > 0; --k) {
       const Field& field = fields[random.next() % fields.size()];

@@ -38,17 +38,24 @@ TEST(OddIndices, AreRejectedWhateverTheDrawWouldChange) {
                        }},
                       {"nothing, by masks",
                        [=](DrawState& s) {
-                         no_depth(s), s.color_mask = {false, false, false, false};
+                         no_depth(s);
+                         s.color_mask = {false, false, false, false};
                        }},
-                      {"nothing, by planes", [=](DrawState& s) { no_depth(s), s.plane_mask = 0; }},
+                      {"nothing, by planes",
+                       [=](DrawState& s) {
+                         no_depth(s);
+                         s.plane_mask = 0;
+                       }},
                       {"nothing, by a stencil that keeps",
                        [=](DrawState& s) {
-                         no_depth(s), s.color_mask = {false, false, false, false}, s.stencil = StencilState{};
+                         no_depth(s);
+                         s.color_mask = {false, false, false, false};
+                         s.stencil = StencilState{};
                        }},
                       {"nothing, by a stencil without planes", [=](DrawState& s) {
-                         no_depth(s),
-                             s.plane_mask = 0,
-                             s.stencil = StencilState{.front = {.zpass = StencilOp::invert, .write_mask = 0}};
+                         no_depth(s);
+                         s.plane_mask = 0;
+                         s.stencil = StencilState{.front = {.zpass = StencilOp::invert, .write_mask = 0}};
                        }}};
   const MeshData whole = rectangle(-1, -1, 1, 1);
   Renderer renderer({.threads = 1, .debug = {.count_fragments = true}});

@@ -113,7 +113,8 @@ TEST(OddMatrices, TwoOddNumbersAreErrorsOrFinite) {
         for (const double a : values())
           for (const double b : values()) {
             Numbers numbers = helper.plain;
-            numbers[i] = a, numbers[j] = b;
+            numbers[i] = a;
+            numbers[j] = b;
             expect_error_or_finite(helper, numbers);
             if (HasFatalFailure()) return;
           }
@@ -157,7 +158,9 @@ TEST(OddMatrices, TranslationsAndScalesHoldTheExactNumbers) {
     const double z = odd[(i + 19) % odd.size()];
     Matrix moved;
     Matrix stretched;
-    moved.m[3] = stretched.m[0] = x, moved.m[7] = stretched.m[5] = y, moved.m[11] = stretched.m[10] = z;
+    moved.m[3] = stretched.m[0] = x;
+    moved.m[7] = stretched.m[5] = y;
+    moved.m[11] = stretched.m[10] = z;
     const auto bits = [](const Matrix& matrix) {
       return std::bit_cast<std::array<std::uint64_t, 16>>(matrix.m);
     };

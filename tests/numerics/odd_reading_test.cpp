@@ -107,13 +107,15 @@ TEST(OddReading, DistancesUnderOddProjectionsAreErrorsOrMatchTheFormula) {
                                       std::to_string(m[i]) + ", " + std::to_string(m[j]);
             if (!found) {
               ++refused;
-              const Real ae = Real{m[10]} * m[15], bc = Real{m[11]} * m[14];
+              const Real ae = Real{m[10]} * m[15];
+              const Real bc = Real{m[11]} * m[14];
               const bool alike = std::abs(ae - bc) <= 0x1p-49L * (std::abs(ae) + std::abs(bc));
               // Products of numbers 2^1000 times smaller than the largest are 0.
               const Real largest =
                   std::max({std::abs(m[10]), std::abs(m[11]), std::abs(m[14]), std::abs(m[15])});
-              EXPECT_TRUE(!finite || !straight || alike || std::abs(ae - bc) < 0x1p-1000L * largest * largest)
-                  << where << ": " << message;
+              const bool is_null = std::abs(ae - bc) < 0x1p-1000L * largest * largest;
+              const bool is_singular = alike || is_null;
+              EXPECT_TRUE(!finite || !straight || is_singular) << where << ": " << message;
               EXPECT_THAT(message, testing::StartsWith("FrameBuffer::read_view_depth: projection")) << where;
               continue;
             }
@@ -132,7 +134,9 @@ TEST(OddReading, ProjectionsWithoutDepthAreErrors) {
   const Depths depths(DepthFormat::unorm24);
   const auto error = [&](double a, double b, double c, double e) {
     Camera camera;
-    camera.projection.m[10] = a, camera.projection.m[11] = b, camera.projection.m[14] = c,
+    camera.projection.m[10] = a;
+    camera.projection.m[11] = b;
+    camera.projection.m[14] = c;
     camera.projection.m[15] = e;
     return error_of([&] { depths.distances(camera); }).value_or("");
   };

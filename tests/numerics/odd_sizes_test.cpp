@@ -85,13 +85,23 @@ struct Scene {
 std::vector<FrameBufferFormat> formats(Size size) {
   const FrameBufferFormat base{.width = size.width, .height = size.height};
   std::vector<FrameBufferFormat> all(5, base);
-  all[1].color_bits = 15, all[1].depth = DepthFormat::float32, all[1].alpha_bits = 8,
-  all[1].dither = Dither::bayer4, all[1].accumulation_bits = 16, all[1].stencil_bits = 3;
-  all[2].color_mode = ColorMode::index, all[2].color_bits = 7, all[2].depth = DepthFormat::unorm16,
+  all[1].color_bits = 15;
+  all[1].depth = DepthFormat::float32;
+  all[1].alpha_bits = 8;
+  all[1].dither = Dither::bayer4;
+  all[1].accumulation_bits = 16;
+  all[1].stencil_bits = 3;
+  all[2].color_mode = ColorMode::index;
+  all[2].color_bits = 7;
+  all[2].depth = DepthFormat::unorm16;
   all[2].stencil_bits = 1;
-  all[3].samples = 4, all[3].depth = DepthFormat::unorm32, all[3].accumulation_bits = 32,
+  all[3].samples = 4;
+  all[3].depth = DepthFormat::unorm32;
+  all[3].accumulation_bits = 32;
   all[3].color_bits = 23;
-  all[4].color_bits = 1, all[4].depth = DepthFormat::none, all[4].stencil_bits = 0,
+  all[4].color_bits = 1;
+  all[4].depth = DepthFormat::none;
+  all[4].stencil_bits = 0;
   all[4].dither = Dither::bayer8;
   return all;
 }

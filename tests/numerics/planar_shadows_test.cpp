@@ -41,7 +41,8 @@ struct Shadow {
 // roundings of its terms; subtracting from 1 or 0 adds another. Each product with the point adds as much, and
 // long double has its own roundings.
 Real worst_error(const Shadow& shadow, const Matrix& m, const Real4& x) {
-  const Real4 p = shadow.p(), l = shadow.l();
+  const Real4 p = shadow.p();
+  const Real4 l = shadow.l();
   const Real product = dot(p, l);
   const Real condition = 1 / shadow.slope();
   Real worst = 0;

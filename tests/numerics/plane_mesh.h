@@ -20,7 +20,7 @@ struct ClipPlane {
     const auto on = [&](std::int64_t ClipPoint::*c) { return origin.*c + u * to_u.*c + v * to_v.*c; };
     return {on(&ClipPoint::x), on(&ClipPoint::y), on(&ClipPoint::z), on(&ClipPoint::w)};
   }
-  std::optional<VisiblePlane> seen(const SquareViewport& view) const {
+  std::optional<VisiblePlane> visible(const SquareViewport& view) const {
     return visible_plane({origin, to_u, to_v}, view);
   }
   /// Mesh with vertices at points (u, v) of the plane, times a power of two.
@@ -34,16 +34,16 @@ struct ClipPlane {
     return mesh;
   }
   /// The part with z and w between near and far, and u and v within `size`.
-  ExactRegion region(const VisiblePlane& seen, std::int64_t size, bool reversed = false) const {
-    const auto mix = [&](const auto& value) { return seen.mix(value(origin), value(to_u), value(to_v)); };
+  ExactRegion region(const VisiblePlane& visible, std::int64_t size, bool reversed = false) const {
+    const auto mix = [&](const auto& value) { return visible.mix(value(origin), value(to_u), value(to_v)); };
     ExactRegion region;
     region.inside.push_back(mix([&](const ClipPoint& p) { return reversed ? p.w - p.z : p.w + p.z; }));
     region.inside.push_back(mix([&](const ClipPoint& p) { return reversed ? p.z : p.w - p.z; }));
-    region.inside.push_back(seen.coordinates[0]);
+    region.inside.push_back(visible.coordinates[0]);
     region.outside = region.inside;
     for (const std::int64_t side : {-1, 1}) {
-      region.inside.push_back(seen.mix(size, side, 0));
-      region.inside.push_back(seen.mix(size, 0, side));
+      region.inside.push_back(visible.mix(size, side, 0));
+      region.inside.push_back(visible.mix(size, 0, side));
     }
     return region;
   }

@@ -25,7 +25,8 @@ using Exact = std::function<long double(float)>;
 
 /// Largest error in ulp, and relative to the exact value.
 struct Errors {
-  long double ulp = 0, relative = 0;
+  long double ulp = 0;
+  long double relative = 0;
   template <class Real>
   void add(float found, Real exact) {
     update_worst(ulp, ulps(found, exact));

@@ -43,7 +43,8 @@ bool covers(const Corners& t, const Place& p) {
   const Int128 area = turn(t[0], t[1], t[2]);
   if (area == 0) return false;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Place &a = area > 0 ? t[k] : t[(k + 1) % 3], &b = area > 0 ? t[(k + 1) % 3] : t[k];
+    const Place& a = area > 0 ? t[k] : t[(k + 1) % 3];
+    const Place& b = area > 0 ? t[(k + 1) % 3] : t[k];
     const Int128 at = turn(a, b, p);
     const Int128 by_e = -(b.y - a.y);
     const Int128 by_e2 = b.x - a.x;
@@ -88,7 +89,8 @@ TEST_P(SamplePositions, MatchTheSpecificationToOne256thOfAPixel) {
         std::int64_t covered = 0;
         for (int y = 0; y < kHalf; ++y)
           for (int x = 0; x < kHalf; ++x) {
-            const Place p{kScale * x + x, kScale * y + y}, q{p.x + 1, p.y + 1};
+            const Place p{kScale * x + x, kScale * y + y};
+            const Place q{p.x + 1, p.y + 1};
             const Place square[4] = {p, {q.x, p.y}, q, {p.x, q.y}};
             Corners t{square[corner], square[(corner + 1) % 4], square[(corner + 3) % 4]};
             if (turned) std::swap(t[1], t[2]);
@@ -128,7 +130,8 @@ TEST_P(SamplePositions, AreOnTheRightSideOfNearbyEdges) {
         const Place s = sample(x, y, samples, near);
         const Place along{between(-3000, 3000), between(-3000, 3000)};
         const Place off{between(-1, 1), between(-1, 1)};
-        const int before = between(0, 3), after = between(1, 3);
+        const int before = between(0, 3);
+        const int after = between(1, 3);
         const Corners t{Place{s.x + off.x - before * along.x, s.y + off.y - before * along.y},
                         Place{s.x + off.x + after * along.x, s.y + off.y + after * along.y},
                         Place{s.x + between(-30000, 30000), s.y + between(-30000, 30000)}};
@@ -162,7 +165,8 @@ TEST_P(SamplePositions, AreResolvedToTheMeanOfTheirLevels) {
   for (int color_bits = 1; color_bits <= 24; ++color_bits)
     for (const int alpha_bits : {0, 8}) {
       FrameBufferFormat f = format();
-      f.color_bits = color_bits, f.alpha_bits = alpha_bits;
+      f.color_bits = color_bits;
+      f.alpha_bits = alpha_bits;
       const ComponentBits split(f);
       Triangles triangles;
       std::vector<std::uint32_t> expected(std::size_t{kUsed} * kUsed);
@@ -219,7 +223,7 @@ TEST_P(SamplePositions, HaveTheirOwnDepthAndStencil) {
       for (int y = 0; y < kUsed; ++y)
         for (int x = 0; x < kUsed; ++x)
           layers[k].add_at(sample(x, y, samples, k), static_cast<double>(k + 1) / 16);
-    for (std::size_t seen = 0; seen < count; ++seen) {
+    for (std::size_t shown = 0; shown < count; ++shown) {
       FrameBuffer buffer(f);
       Frame frame(buffer);
       for (std::size_t k = 0; k < count; ++k) {
@@ -229,18 +233,18 @@ TEST_P(SamplePositions, HaveTheirOwnDepthAndStencil) {
             StencilState{.front = {.ref = static_cast<std::uint32_t>(10 + k), .zpass = StencilOp::replace}};
         frame.draw(layers[k].mesh.view(), state);
       }
-      // Red where the stencil value is that of sample `seen`; blue added to samples whose depth lies behind a
-      // plane between this sample's depth and the next.
+      // Red where the stencil value is that of sample `shown`; blue added to samples whose depth lies behind
+      // a plane between this sample's depth and the next.
       DrawState red = unlit({1, 0, 0, 1});
       DrawState blue = unlit({0, 0, 1, 1});
       red.depth.enabled = false;
       red.stencil =
-          StencilState{.front = {.func = Compare::equal, .ref = static_cast<std::uint32_t>(10 + seen)}};
+          StencilState{.front = {.func = Compare::equal, .ref = static_cast<std::uint32_t>(10 + shown)}};
       blue.depth.write = false;
       blue.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one};
       const MeshData window = whole_window();
       const MeshData plane = rectangle(
-          -1, -1, 1, 1, static_cast<float>(2 * (static_cast<double>(seen + 1) / 16 + 1 / 32.0) - 1));
+          -1, -1, 1, 1, static_cast<float>(2 * (static_cast<double>(shown + 1) / 16 + 1 / 32.0) - 1));
       frame.draw(window.view(), red);
       frame.draw(plane.view(), blue);
       Renderer({.threads = 1}).finish(frame);
@@ -252,9 +256,9 @@ TEST_P(SamplePositions, HaveTheirOwnDepthAndStencil) {
         for (int x = 0; x < kUsed; ++x) {
           const std::size_t i = static_cast<std::size_t>(y * kSide + x);
           const int reds = mean_level(255, samples);
-          const int blues = mean_level(255 * (samples - 1 - static_cast<int>(seen)), samples);
+          const int blues = mean_level(255 * (samples - 1 - static_cast<int>(shown)), samples);
           ASSERT_EQ(words[i], static_cast<std::uint32_t>(reds << 16 | blues))
-              << "sample " << seen << ", pixel " << x << ", " << y;
+              << "sample " << shown << ", pixel " << x << ", " << y;
           ASSERT_EQ(stencil[i], 10);
           ASSERT_NEAR(depths[i], 1 / 16.0f, depth_format == DepthFormat::unorm16 ? 1 / 65535.0 : 0x1p-23);
         }

@@ -70,7 +70,7 @@ struct Subject {
 
 void expect_range(const std::string& what, const Subject& subject) {
   int worst = 0;
-  std::size_t seen = 0;
+  std::size_t colored_pixels = 0;
   for (const int samples : {1, 4, 8})
     for (const bool defer : {false, true}) {
       Random random(7);
@@ -91,11 +91,11 @@ void expect_range(const std::string& what, const Subject& subject) {
           for (const int shift : {0, 8, 16}) {
             const int level = static_cast<int>(word >> shift & 255);
             worst = std::max({worst, kLow - level, level - kHigh});
-            seen += level != 127 ? 1 : 0;
+            colored_pixels += level != 127 ? 1 : 0;
           }
       }
     }
-  EXPECT_GT(seen, 1000u);
+  EXPECT_GT(colored_pixels, 1000u);
   expect_within("1, 4 and 8 samples, " + what + ": beyond the vertices' own", worst, 0, "levels");
 }
 

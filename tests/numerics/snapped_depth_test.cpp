@@ -65,7 +65,8 @@ class UnsnappedPlane {
 /// number.
 UnsnappedPlane add_random_triangle(CaseDraw& draw, Rng& rng, std::size_t number) {
   for (;;) {
-    const bool is_small = rng.maybe(), has_perspective = rng.maybe();
+    const bool is_small = rng.maybe();
+    const bool has_perspective = rng.maybe();
     const double left = (kSide + 32) * rng.unit() - 16, top = (kSide + 32) * rng.unit() - 16;
     const double size = is_small ? 16 : kSide;
     std::vector<float> positions;

@@ -25,8 +25,10 @@ std::vector<Point> clip(std::vector<Point> polygon, const std::vector<Point>& pl
   for (const Point& plane : planes) {
     std::vector<Point> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-      const mpq_class da = value_at(a, plane), db = value_at(b, plane);
+      const Point& a = polygon[i];
+      const Point& b = polygon[(i + 1) % polygon.size()];
+      const mpq_class da = value_at(a, plane);
+      const mpq_class db = value_at(b, plane);
       if (da >= 0) kept.push_back(a);
       if ((da < 0) == (db < 0)) continue;
       const mpq_class along = da / (da - db);
@@ -73,7 +75,9 @@ bool folds(const std::array<Point, 3>& v, const std::vector<Point>& planes, cons
   const mpq_class turn = v[0][0] * (v[1][1] * v[2][3] - v[1][3] * v[2][1]) +
                          v[0][1] * (v[1][3] * v[2][0] - v[1][0] * v[2][3]) +
                          v[0][3] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
-  return sign(area) * sgn(turn) < 0 || (sgn(turn) == 0 && area != 0) || edges_cross(snapped);
+  const bool is_flipped = sign(area) * sgn(turn) < 0;
+  const bool is_no_longer_flat = sgn(turn) == 0 && area != 0;
+  return is_flipped || is_no_longer_flat || edges_cross(snapped);
 }
 
 }  // namespace

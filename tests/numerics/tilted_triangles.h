@@ -84,7 +84,7 @@ struct TiltedState {
 template <class Pixel>
 std::size_t for_each_pixel(const MakeRenderer& make, const DepthCase& depth, WindowShape shape, int rounds,
                            const Pixel& pixel, const TiltedState& state = {}) {
-  std::size_t seen = 0;
+  std::size_t visible_pixels = 0;
   Rng rng(70 + static_cast<std::uint32_t>(shape));
   for (const Window& window : state.windows) {
     const auto renderer = make({.width = window.width, .height = window.height, .depth = depth.format});
@@ -112,11 +112,11 @@ std::size_t for_each_pixel(const MakeRenderer& make, const DepthCase& depth, Win
           const std::size_t number = number_of(picture.colors[at]);
           if (number >= all.size() || !all[number].triangle.contains(WindowTriangle::center(x, y))) continue;
           pixel(all[number], x, y, picture.depth[at]);
-          ++seen;
+          ++visible_pixels;
         }
     }
   }
-  return seen;
+  return visible_pixels;
 }
 
 // Depth in the whole range, as a multiple of 1 / (area * 2^kFraction).

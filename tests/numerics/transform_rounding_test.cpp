@@ -40,8 +40,8 @@ struct Sum {
   }
   /// Error of `found` relative to the sum of the magnitudes. If that is 0, `found` must be 0.
   long double error(double found) const {
-    return sizes == 0 ? (found == 0 ? 0 : HUGE_VALL)
-                      : std::abs(static_cast<long double>((Quad{found} - exact) / sizes));
+    if (sizes == 0) return found == 0 ? 0 : HUGE_VALL;
+    return std::abs(static_cast<long double>((Quad{found} - exact) / sizes));
   }
 };
 
@@ -79,7 +79,8 @@ TEST(TransformRounding, ProductsOfMatrices) {
   Rng rng(71);
   long double worst = 0;
   for (int n = 0; n < rounds(20000); ++n) {
-    Matrix a{any_matrix(rng)}, b{any_matrix(rng)};
+    Matrix a{any_matrix(rng)};
+    Matrix b{any_matrix(rng)};
     // Cancels out in element 0.
     if (rng.maybe() && a.m[1] != 0) b.m[4] = -(a.m[0] * b.m[0] + a.m[2] * b.m[8] + a.m[3] * b.m[12]) / a.m[1];
     const Matrix product = a * b;
@@ -262,10 +263,12 @@ TEST(TransformRounding, Outcodes) {
   std::size_t on_planes = 0;
   for (int n = 0; n < rounds(40000); ++n) {
     VertexTransform t;
-    const auto width = static_cast<double>(rng.between(1, 16384)),
-               height = static_cast<double>(rng.between(1, 16384));
-    t.half_width = width / 2, t.half_height = height / 2;
-    t.guard_x = kGuardBandPixels / t.half_width, t.guard_y = kGuardBandPixels / t.half_height;
+    const auto width = static_cast<double>(rng.between(1, 16384));
+    const auto height = static_cast<double>(rng.between(1, 16384));
+    t.half_width = width / 2;
+    t.half_height = height / 2;
+    t.guard_x = kGuardBandPixels / t.half_width;
+    t.guard_y = kGuardBandPixels / t.half_height;
     t.reversed = rng.maybe();
     const double w = any_number(rng, 20);
     const auto beside = [&](double plane) {

@@ -79,8 +79,8 @@ TEST(MirroredDraws, FaceByTheirWindowWindingAndKeepTheirNormals) {
   int backs = 0;
   int mirrored = 0;
   for (int n = 0; n < 2000 * (long_tests() ? 30 : 1); ++n) {
-    const double x = std::exp2(rng.between(-3, 3)) * (rng.one_in(2) ? -1 : 1),
-                 y = std::exp2(rng.between(-3, 3)) * (rng.one_in(2) ? -1 : 1);
+    const double x = std::exp2(rng.between(-3, 3)) * (rng.one_in(2) ? -1 : 1);
+    const double y = std::exp2(rng.between(-3, 3)) * (rng.one_in(2) ? -1 : 1);
     const Matrix transform = scale(1, 1, 1e-3) * turn(rng) *
                              scale(x, y, std::exp2(rng.between(-3, 3)) * (rng.one_in(2) ? -1 : 1)) *
                              turn(rng);

@@ -58,8 +58,9 @@ CaseFormat format_of(int width, int height, DepthFormat depth) {
 }
 
 struct Changes {
-  long double colors = 0, depths = 0;
-  long seen = 0;  // pixels that are drawn
+  long double colors = 0;
+  long double depths = 0;
+  long drawn_pixels = 0;
 };
 std::array<long, 3> levels(const std::array<float, 3>& color) {
   return {std::lround(color[0] * 255), std::lround(color[1] * 255), std::lround(color[2] * 255)};
@@ -76,7 +77,7 @@ void compare(const CasePicture& alone, const CasePicture& moved, const CaseForma
       const auto there = static_cast<std::size_t>(row) * static_cast<std::size_t>(buffer.width) +
                          static_cast<std::size_t>(column);
       const auto here = inside ? static_cast<std::size_t>(y * kWidth + x) : 0;
-      changes.seen +=
+      changes.drawn_pixels +=
           inside && levels(alone.colors[here]) != std::array<long, 3>{} && alone.depth[here] != cleared_depth;
       changes.colors +=
           levels(moved.colors[there]) != levels(inside ? alone.colors[here] : std::array<float, 3>{});
@@ -136,7 +137,7 @@ TEST(ViewportTranslation, ChangesNeitherColorsNorDepths) {
                     has_mesa |= !is_tessera;
                     Changes& changes = is_tessera ? ours : mesas;
                     changes = changes_of(make, is_tessera, depth.format, depth.cleared);
-                    EXPECT_GT(changes.seen, 10000);
+                    EXPECT_GT(changes.drawn_pixels, 10000);
                     return changes.colors;
                   });
     expect_within("moved by whole pixels: depths change, " + depth.name, ours.depths, 0, "pixels");

@@ -87,13 +87,13 @@ std::array<Corner, 3> random_corners(RandomTriangles& source, bool with_halves) 
   const bool halves = source.between(0, 1) != 0 && with_halves;
   std::array<Corner, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto centred = [&](std::int32_t c) {
+    const auto centered = [&](std::int32_t c) {
       return (std::clamp(c - 128 * kView, -16382 * 256, 16382 * 256) +
               (halves ? 0.5 * source.between(0, 1) : 0)) /
              (128.0 * kView);
     };
     const double w = perspective ? drawn(std::exp2(12 * source.unit() - 6)) : 1;
-    corners[k] = {drawn(centred(shape[k].x) * w), drawn(centred(shape[k].y) * w), static_cast<float>(w)};
+    corners[k] = {drawn(centered(shape[k].x) * w), drawn(centered(shape[k].y) * w), static_cast<float>(w)};
   }
   return corners;
 }

@@ -29,12 +29,12 @@ Corners random_corners(RandomTriangles& source, bool clipped) {
   const Triangle shape = source.next();
   for (std::size_t k = 0; k < 3; ++k) {
     const auto any = [&] { return static_cast<float>(source.between(-63, 63)); };
-    const auto centred = [](std::int32_t c) {
+    const auto centered = [](std::int32_t c) {
       return static_cast<float>(std::clamp(c - 128 * kView, -16382 * 256, 16382 * 256) / (128.0 * kView));
     };
     if (clipped) corners[k] = {any(), any(), any(), any()};
     else
-      corners[k] = {centred(shape[k].x), centred(shape[k].y), static_cast<float>(2 * source.unit() - 1), 1};
+      corners[k] = {centered(shape[k].x), centered(shape[k].y), static_cast<float>(2 * source.unit() - 1), 1};
   }
   return corners;
 }
@@ -61,13 +61,13 @@ long double changed_pixels(const MakeRenderer& make, bool is_tessera, DepthForma
   const std::unique_ptr<CaseRenderer> renderer = make({.width = kBuffer, .height = kBuffer, .depth = depth});
   RandomTriangles source(clipped ? 2 : 1, kView);
   long double changed = 0;
-  std::size_t seen = 0;
+  std::size_t visible_pixels = 0;
   for (int batch = 0; batch < (is_tessera && long_tests() ? 600 : 6); ++batch) {
     std::vector<Corners> triangles(kBatch);
     for (Corners& corners : triangles) corners = random_corners(source, clipped);
     std::array<std::uint32_t, 3> order{0, 1, 2};
     const CasePicture first = renderer->draw(draws_of(triangles, order));
-    for (const std::array<float, 3>& color : first.colors) seen += color[0] > 0;
+    for (const std::array<float, 3>& color : first.colors) visible_pixels += color[0] > 0;
     while (std::next_permutation(order.begin(), order.end())) {
       const CasePicture& other = renderer->draw(draws_of(triangles, order));
       for (std::size_t i = 0; i < first.colors.size(); ++i) {
@@ -80,7 +80,7 @@ long double changed_pixels(const MakeRenderer& make, bool is_tessera, DepthForma
       }
     }
   }
-  EXPECT_GT(seen, 10000u);
+  EXPECT_GT(visible_pixels, 10000u);
   return changed;
 }
 

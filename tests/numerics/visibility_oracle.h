@@ -44,8 +44,8 @@ class VisibilityOracle {
     VisibilityOracle owned;
     MeshRandom random(n);
     const int cells = std::min(30, static_cast<int>(kSide / cell) + 2);
-    const double left = random.unit() * (kSide - (cells - 1) * cell) - cell / 2,
-                 top = random.unit() * (kSide - (cells - 1) * cell) - cell / 2;
+    const double left = random.unit() * (kSide - (cells - 1) * cell) - cell / 2;
+    const double top = random.unit() * (kSide - (cells - 1) * cell) - cell / 2;
     std::vector<WindowVertex> points;
     for (int j = 0; j <= cells; ++j)
       for (int i = 0; i <= cells; ++i) {
@@ -134,7 +134,9 @@ class VisibilityOracle {
   }
 
   std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> times_ = std::vector<std::uint32_t>(std::size_t{kSide} * kSide), last_ = times_;
+  // Per pixel: number of triangles that cover it, and the last of them.
+  std::vector<std::uint32_t> times_ = std::vector<std::uint32_t>(std::size_t{kSide} * kSide);
+  std::vector<std::uint32_t> last_ = times_;
 };
 
 }  // namespace tessera::test

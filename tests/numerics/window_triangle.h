@@ -26,7 +26,8 @@ struct WindowTriangle {
   /// Twice the area of the triangle between vertex k's opposite edge and a point: positive inside, for either
   /// winding.
   Whole edge(std::size_t k, const GridPoint& p) const {
-    const GridPoint &a = at[(k + 1) % 3], &b = at[(k + 2) % 3];
+    const GridPoint& a = at[(k + 1) % 3];
+    const GridPoint& b = at[(k + 2) % 3];
     const Whole side = Whole{b.x - a.x} * (p.y - a.y) - Whole{b.y - a.y} * (p.x - a.x);
     return signed_area() < 0 ? -side : side;
   }
@@ -85,13 +86,16 @@ inline constexpr WindowShape kWindowShapes[] = {WindowShape::small, WindowShape:
 
 /// A triangle of positive area, close enough to the window to be drawn without clipping.
 inline WindowTriangle random_triangle(Rng& rng, WindowShape shape, int width, int height) {
-  const std::int64_t w = std::int64_t{width} * kGrid, h = std::int64_t{height} * kGrid;
+  const std::int64_t w = std::int64_t{width} * kGrid;
+  const std::int64_t h = std::int64_t{height} * kGrid;
   const auto anywhere = [&] {
     return GridPoint{rng.between(-kGrid, w + kGrid), rng.between(-kGrid, h + kGrid)};
   };
   for (;;) {
     WindowTriangle t{{anywhere(), anywhere(), anywhere()}};
-    GridPoint &a = t.at[0], &b = t.at[1], &c = t.at[2];
+    GridPoint& a = t.at[0];
+    GridPoint& b = t.at[1];
+    GridPoint& c = t.at[2];
     switch (shape) {
       case WindowShape::any: break;
       case WindowShape::small:
@@ -105,8 +109,13 @@ inline WindowTriangle random_triangle(Rng& rng, WindowShape shape, int width, in
         for (GridPoint& p : t.at) p = {(p.x & -kGrid) + kGrid / 2, (p.y & -kGrid) + kGrid / 2};
         break;
       case WindowShape::sliver: {
-        if (width > height) a.x = rng.between(-kGrid, kGrid), b.x = w - rng.between(-kGrid, kGrid);
-        else a.y = rng.between(-kGrid, kGrid), b.y = h - rng.between(-kGrid, kGrid);
+        if (width > height) {
+          a.x = rng.between(-kGrid, kGrid);
+          b.x = w - rng.between(-kGrid, kGrid);
+        } else {
+          a.y = rng.between(-kGrid, kGrid);
+          b.y = h - rng.between(-kGrid, kGrid);
+        }
         const double along = rng.unit();
         c = {a.x + std::llround(along * static_cast<double>(b.x - a.x)) + rng.between(-4, 4),
              a.y + std::llround(along * static_cast<double>(b.y - a.y)) + rng.between(-4, 4)};
@@ -117,8 +126,10 @@ inline WindowTriangle random_triangle(Rng& rng, WindowShape shape, int width, in
         // that line.
         a = {(a.x & -kGrid) + kGrid / 2, (a.y & -kGrid) + kGrid / 2};
         const std::int64_t turns = rng.between(1, 4);
-        const std::int64_t dx = (b.x - a.x) / kGrid * kGrid, dy = (b.y - a.y) / kGrid * kGrid;
-        const std::int64_t step_x = dx + rng.between(-1, 1), step_y = dy + rng.between(-1, 1);
+        const std::int64_t dx = (b.x - a.x) / kGrid * kGrid;
+        const std::int64_t dy = (b.y - a.y) / kGrid * kGrid;
+        const std::int64_t step_x = dx + rng.between(-1, 1);
+        const std::int64_t step_y = dy + rng.between(-1, 1);
         b = {a.x + step_x, a.y + step_y};
         std::int64_t r0 = step_x;
         std::int64_t r1 = step_y;

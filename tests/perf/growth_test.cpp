@@ -25,7 +25,10 @@ TEST(BenchGrowth, TabulatesCostPerAddedUnit) {
   std::getline(table, line);
   EXPECT_EQ(line, "draws: made up");
   std::getline(table, line);
-  double count = 0, ms = 0, megabytes = 0, ns_per_added = 0;
+  double count = 0;
+  double ms = 0;
+  double megabytes = 0;
+  double ns_per_added = 0;
   ASSERT_TRUE(table >> count >> ms >> megabytes);
   EXPECT_EQ(count, 10);
   EXPECT_NEAR(ms, 1.001, 1e-3);

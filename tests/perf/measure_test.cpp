@@ -49,14 +49,14 @@ class Counting : public Workload {
   FrameWork work_;
 };
 
-Picture grey(std::uint8_t level) {
+Picture gray(std::uint8_t level) {
   Picture picture(10, 10);
   std::fill(picture.rgba.begin(), picture.rgba.end(), level);
   return picture;
 }
 
 struct Made {
-  Picture picture = grey(100);
+  Picture picture = gray(100);
   std::string fault{};
   int fails_at = -1;  // index of the frame that throws
   Roofline roofline = Roofline::none;
@@ -136,7 +136,8 @@ TEST(BenchMeasure, ComparesTileStoresWithL1StoresToo) {
             {.roofline = Roofline::tile_stores, .roofline_bytes = 1 << 14, .tile_bytes = tile_bytes})},
         options, HardwareCounters())[0];
   };
-  const Row small = row_of(1 << 14), large = row_of(1 << 26);
+  const Row small = row_of(1 << 14);
+  const Row large = row_of(1 << 26);
   for (const Row& row : {small, large}) {
     EXPECT_EQ(row.frames, 7u);
     EXPECT_GT(row.roofline, 0);

@@ -61,8 +61,8 @@ ThreeWayReport compare_three_ways(const std::string& path, const RendererOptions
   ThreeWayReport report;
   report.name = std::filesystem::path(path).stem().string();
   const reference::Scene scene = reference::load_scene(path);
-  const int width = report.width_px = scene.framebuffer.width_px,
-            height = report.height_px = scene.framebuffer.height_px;
+  const int width = report.width_px = scene.framebuffer.width_px;
+  const int height = report.height_px = scene.framebuffer.height_px;
 
   report.reference = reference::render(scene).rgb;
   report.engine = draw_by_engine(path, options);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -26,10 +27,11 @@ std::vector<std::string> scene_files() {
 
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = std::filesystem::path(info.param).stem().string();
-  std::ranges::replace_if(
-      name,
-      [](char c) { return !(c >= 'a' && c <= 'z') && !(c >= 'A' && c <= 'Z') && !(c >= '0' && c <= '9'); },
-      '_');
+  const auto is_permitted = [](char c) {
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    return is_letter || (c >= '0' && c <= '9');
+  };
+  std::ranges::replace_if(name, std::not_fn(is_permitted), '_');
   return name;
 }
 

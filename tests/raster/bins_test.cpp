@@ -47,7 +47,7 @@ TEST(Bins, StayWithinBudgetAndCountLostEntries) {
       EXPECT_EQ(bins[b].counts.entries, unlimited[b].counts.entries);
       if (bins[b].overflowed()) continue;
       for (int tile = 100; tile < 150; ++tile) {
-        ASSERT_EQ(bins[b].triangles(tile), unlimited[b].triangles(tile));
+        ASSERT_EQ(bins[b].element_count(tile), unlimited[b].element_count(tile));
         std::uint32_t i = bins[b].first(tile), j = unlimited[b].first(tile);
         for (; i != Bins::kNone && j != Bins::kNone;
              i = bins[b].block(i).next, j = unlimited[b].block(j).next)
@@ -73,7 +73,7 @@ TEST(Bins, AreEmptyAfterResetAndReportTheirMemory) {
     budget.start(limit, bins.bytes());
     bins.reset(tiles, round, &budget);
     for (int tile = round; tile < round + tiles; ++tile)
-      ASSERT_TRUE(bins.first(tile) == Bins::kNone && bins.triangles(tile) == 0) << round;
+      ASSERT_TRUE(bins.first(tile) == Bins::kNone && bins.element_count(tile) == 0) << round;
     std::vector<std::uint32_t> expected(static_cast<std::size_t>(tiles));
     for (int i = 0; i < pushes; ++i) {
       const int span = 1 + round % tiles;
@@ -86,7 +86,7 @@ TEST(Bins, AreEmptyAfterResetAndReportTheirMemory) {
     ASSERT_EQ(bins.overflowed(), budget.refused());
     if (bins.overflowed()) ++overflow_count;
     if (bins.overflowed()) continue;
-    ASSERT_TRUE(std::equal(expected.begin(), expected.end(), bins.triangles_from(round)));
+    ASSERT_TRUE(std::equal(expected.begin(), expected.end(), bins.element_counts_from(round)));
     for (int t = 0; t < tiles; ++t) {
       const std::uint32_t first = bins.first(round + t);
       ASSERT_EQ(first == Bins::kNone, expected[static_cast<std::size_t>(t)] == 0);
@@ -131,7 +131,7 @@ TEST(BinBatches, TilesReadNonEmptyBatchesInOrder) {
       batches.set(bins, kTiles, kFirst);
       for (int t = 0; t < kTiles; t += 5) batches.index_batches(kFirst + t, std::min(5, kTiles - t));
       for (int t = 0; t < kTiles; ++t) {
-        EXPECT_EQ(batches.triangles(kFirst + t), triangles[t]);
+        EXPECT_EQ(batches.element_count(kFirst + t), triangles[t]);
         EXPECT_EQ(read_by(batches, kFirst + t), expected[t]) << count;
         EXPECT_EQ(batches.known_empty(kFirst + t), expected[t].empty());
       }
@@ -147,7 +147,7 @@ TEST(BinBatches, StreamedBatchesAreAllRead) {
   BinBatches batches;
   batches.set_streamed(place, 70, [&](std::uint32_t b) { filled.push_back(b); });
   batches.index_batches(7, 1);
-  EXPECT_EQ(batches.triangles(7), 0);
+  EXPECT_EQ(batches.element_count(7), 0);
   EXPECT_FALSE(batches.known_empty(7)) << "streamed batches are not indexed";
   const std::vector<std::uint32_t> read = read_by(batches, 7);
   ASSERT_EQ(read.size(), 70);

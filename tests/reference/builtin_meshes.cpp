@@ -20,7 +20,7 @@ Circle circle(double turn) {
   return {std::cos(2 * std::numbers::pi * turn), std::sin(2 * std::numbers::pi * turn)};
 }
 
-// Around the y axis, counter-clockwise seen from above: from +x through -z.
+// Around the y axis, counter-clockwise as viewed from above: from +x through -z.
 Vec3 around_y(double turn, double radius, double y) {
   const auto [c, s] = circle(turn);
   return {radius * c, y, -radius * s};
@@ -92,8 +92,8 @@ Mesh cylinder(int n) {
   return mesh;
 }
 
-// Height 2, radius 1: the side's normal is (2 cos, 1, 2 sin) / sqrt 5. At the apex each wedge keeps its own
-// normals.
+// A cone of height 2 and radius 1. Normals of its side are (2 cos, 1, 2 sin) / sqrt(5); each wedge has a
+// separate normal at the apex.
 Mesh cone(int n) {
   Mesh mesh;
   append_quads(mesh, 2 * n, 1, [](double s, double t) {

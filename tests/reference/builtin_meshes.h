@@ -1,5 +1,5 @@
-// The built-in meshes by their definitions: y up, wound counter-clockwise seen from outside, with outward
-// unit normals.
+// The built-in meshes by their definitions: y up, wound counter-clockwise as viewed from outside, with
+// outward unit normals.
 #pragma once
 
 #include <string>

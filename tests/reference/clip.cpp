@@ -46,7 +46,8 @@ std::vector<ClipVertex> clipped(const std::vector<ClipVertex>& polygon, const Pl
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const ClipVertex& a = polygon[i];
     const ClipVertex& b = polygon[(i + 1) % polygon.size()];
-    const double da = plane.distance(a.position), db = plane.distance(b.position);
+    const double da = plane.distance(a.position);
+    const double db = plane.distance(b.position);
     if (da >= 0) kept.push_back(a);
     if (da >= 0 && db < 0) kept.push_back(crossing(a, b, da / (da - db)));
     if (da < 0 && db >= 0) kept.push_back(crossing(b, a, db / (db - da)));

@@ -39,7 +39,8 @@ std::vector<ClipVertex> clip_line(ClipVertex from, ClipVertex to, const ClipVolu
 /// view volume, whatever its size [GL 2.1, 2.12].
 bool is_in_view(Vec4 position, const ClipVolume& volume);
 
-/// Same for the corner of a clipped polygon, which is already inside the near and far plane.
+/// Whether the corner of a clipped polygon is drawn as a point; it lies inside the near and far plane
+/// already.
 bool is_between_sides(Vec4 position);
 
 }  // namespace tessera::reference

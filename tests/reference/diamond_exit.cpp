@@ -36,23 +36,23 @@ constexpr std::int64_t kRadius = kSubpixels / 2;
 constexpr std::array<Point, 4> kSides{{{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};  // signs of x and y in each f
 
 /// Distance of f from half a pixel at a vertex, shifted by (-e, -e^2).
-Nearly room(Point side, Point vertex, Point centre) {
-  const Point p = vertex - centre;
+Nearly room(Point side, Point vertex, Point center) {
+  const Point p = vertex - center;
   return {kRadius - (side.x * p.x + side.y * p.y), side.x, side.y};
 }
 
-bool is_in_diamond(Point vertex, Point centre) {
+bool is_in_diamond(Point vertex, Point center) {
   for (const Point side : kSides)
-    if (!(room(side, vertex, centre) > Nearly{})) return false;
+    if (!(room(side, vertex, center) > Nearly{})) return false;
   return true;
 }
 
-bool meets_diamond(Point a, Point b, Point centre) {
+bool meets_diamond(Point a, Point b, Point center) {
   std::vector<Fraction> below, above;  // lower and upper bounds of t
   for (const Point side : kSides) {
     // Change of f along the segment; t change < room.
     const std::int64_t change = side.x * (b.x - a.x) + side.y * (b.y - a.y);
-    const Nearly at_a = room(side, a, centre);
+    const Nearly at_a = room(side, a, center);
     if (change > 0) above.push_back({at_a, change});
     else if (change < 0) below.push_back({-1 * at_a, -change});
     else if (!(at_a > Nearly{})) return false;
@@ -71,8 +71,8 @@ bool meets_diamond(Point a, Point b, Point centre) {
 
 }  // namespace
 
-bool exits_diamond(Point a, Point b, Point centre) {
-  return meets_diamond(a, b, centre) && !is_in_diamond(b, centre);
+bool exits_diamond(Point a, Point b, Point center) {
+  return meets_diamond(a, b, center) && !is_in_diamond(b, center);
 }
 
 }  // namespace tessera::reference

@@ -6,9 +6,9 @@
 
 namespace tessera::reference {
 
-/// Whether the segment from `a` to `b` meets the diamond around `centre` and does not end in it. Both ends
+/// Whether the segment from `a` to `b` meets the diamond around `center` and does not end in it. Both ends
 /// are shifted by (-e, -e^2), e infinitely small, so that no point lies on a diamond's border.
 /// @pre coordinates are within kExtent pixels of the viewport's centre.
-bool exits_diamond(Point a, Point b, Point centre);
+bool exits_diamond(Point a, Point b, Point center);
 
 }  // namespace tessera::reference

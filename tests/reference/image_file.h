@@ -9,8 +9,8 @@
 namespace tessera::reference {
 
 /// Detects the format by content, not by file name.
-/// @throws std::runtime_error for a file that is missing, broken or of another kind, in words that follow
-/// "found".
+/// @throws std::runtime_error for a file that is missing, broken or of another kind. The message completes
+///     "found ...".
 Image read_image(const std::string& path);
 
 /// One channel of a pixel in 8 bits: the nearest level, without a transfer curve.

@@ -82,7 +82,8 @@ Vec4 lit_color(const Surface& surface, const LightModel& model, const std::vecto
 
 double lit_index(const Surface& surface, const std::array<double, 3>& indexes, const LightModel& model,
                  const std::vector<EyeLight>& lights) {
-  double d = 0, s = 0;
+  double d = 0;
+  double s = 0;
   for (const EyeLight& light : lights) {
     const Vec3 l = to_light(light, surface.position);
     const double strength = attenuation(light, surface.position) * spot(light, -l);

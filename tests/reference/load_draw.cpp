@@ -10,7 +10,7 @@ namespace {
 Mat4 translation(Vec3 t) { return {{{{1, 0, 0, t.x}, {0, 1, 0, t.y}, {0, 0, 1, t.z}, {0, 0, 0, 1}}}}; }
 Mat4 scaling(Vec3 s) { return {{{{s.x, 0, 0, 0}, {0, s.y, 0, 0}, {0, 0, s.z, 0}, {0, 0, 0, 1}}}}; }
 
-// Same as glRotate.
+// The matrix of glRotate.
 Mat4 rotation(double degrees, Vec3 axis) {
   const Vec3 a = normalize(axis);
   const double angle = degrees * std::numbers::pi / 180;

@@ -28,7 +28,7 @@ constexpr std::array<Rgb8, 16> kEga16{{{0, 0, 0},
 
 // The default palette of IBM VGA mode 13h: EGA's colours, 16 greys, 3 intensities x 3 saturations x 24 hues,
 // 8 black entries. The values are 6-bit DAC levels.
-constexpr std::array<int, 16> kVgaGreys{0, 5, 8, 11, 14, 17, 20, 24, 28, 32, 36, 40, 45, 50, 56, 63};
+constexpr std::array<int, 16> kVgaGrays{0, 5, 8, 11, 14, 17, 20, 24, 28, 32, 36, 40, 45, 50, 56, 63};
 constexpr std::array<std::array<int, 5>, 9> kVgaRamps{{{0, 16, 31, 47, 63},
                                                        {31, 39, 47, 55, 63},
                                                        {45, 49, 54, 58, 63},
@@ -61,8 +61,8 @@ void append_hues(std::vector<Rgb8>& palette, const std::array<int, 5>& ramp) {
 
 std::vector<Rgb8> vga256() {
   std::vector<Rgb8> palette(kEga16.begin(), kEga16.end());
-  for (const int grey : kVgaGreys)
-    palette.push_back({dac_to_8_bits(grey), dac_to_8_bits(grey), dac_to_8_bits(grey)});
+  for (const int gray : kVgaGrays)
+    palette.push_back({dac_to_8_bits(gray), dac_to_8_bits(gray), dac_to_8_bits(gray)});
   for (const auto& ramp : kVgaRamps) append_hues(palette, ramp);
   palette.resize(256, Rgb8{0, 0, 0});
   return palette;
@@ -77,7 +77,7 @@ std::vector<Rgb8> web216() {
   return palette;
 }
 
-std::vector<Rgb8> greys(std::uint32_t count) {
+std::vector<Rgb8> grays(std::uint32_t count) {
   std::vector<Rgb8> palette;
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto level = static_cast<std::uint8_t>(std::lround(255.0 * i / (count - 1)));
@@ -90,8 +90,8 @@ std::vector<Rgb8> greys(std::uint32_t count) {
 
 std::vector<Rgb8> named_palette(const std::string& name, int bits) {
   std::vector<Rgb8> palette;
-  if (name == "bw") palette = greys(2);
-  else if (name == "gray") palette = greys(1u << bits);
+  if (name == "bw") palette = grays(2);
+  else if (name == "gray") palette = grays(1u << bits);
   else if (name == "ega16") palette.assign(kEga16.begin(), kEga16.end());
   else if (name == "vga256") palette = vga256();
   else if (name == "web216") palette = web216();

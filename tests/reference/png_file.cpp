@@ -28,7 +28,12 @@ struct Header {
   bool has_color = false;
   bool has_alpha = false;
 
-  int samples() const { return has_palette ? 1 : (has_color ? 3 : 1) + (has_alpha ? 1 : 0); }
+  /// Per pixel.
+  int samples() const {
+    if (has_palette) return 1;
+    const int colors = has_color ? 3 : 1;
+    return has_alpha ? colors + 1 : colors;
+  }
   std::size_t row_bytes() const {
     return (static_cast<std::size_t>(width) * static_cast<std::size_t>(samples() * bit_depth) + 7) / 8;
   }
@@ -154,8 +159,8 @@ Image read_png(const Bytes& bytes) {
   Image image;
   image.width = header.width;
   image.height = header.height;
-  image.channels =
-      header.has_palette ? (chunks.transparent.empty() ? 3 : 4) : header.samples() + (has_key ? 1 : 0);
+  if (header.has_palette) image.channels = chunks.transparent.empty() ? 3 : 4;
+  else image.channels = has_key ? header.samples() + 1 : header.samples();
   const unsigned largest = (1u << header.bit_depth) - 1;
   for (std::size_t y = 0; y < static_cast<std::size_t>(header.height); ++y)
     for (std::size_t x = 0; x < static_cast<std::size_t>(header.width); ++x) {

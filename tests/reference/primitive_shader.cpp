@@ -29,8 +29,8 @@ Vec4 higher(Vec4 a, Vec4 b) {
   return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z), std::max(a.w, b.w)};
 }
 
-/// Same, clamped to the range of the corners for polygons: a pixel's centre may lie outside if only samples
-/// are covered.
+/// Weighted sum of `of(corner)`, for polygons clamped to the range of the corners: a pixel's centre may lie
+/// outside if only samples are covered.
 template <class Of>
 auto mix_within(const CornerWeights& weights, const Of& of) {
   const auto mixed = mix(weights, of);

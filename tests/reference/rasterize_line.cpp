@@ -32,10 +32,10 @@ class Line {
     // pixels up and down suffice.
     const std::int64_t first = x_major ? all.first_x : all.first_y, last = x_major ? all.last_x : all.last_y;
     for (std::int64_t major = first; major <= last; ++major) {
-      const std::int64_t near = pixel_at(a, pixel_centre(major, major), x_major);
+      const std::int64_t near = pixel_at(a, pixel_center(major, major), x_major);
       for (std::int64_t minor = near - 2; minor <= near + 2; ++minor) {
         const Point pixel = x_major ? Point{major, minor} : Point{minor, major};
-        if (exits_diamond(a, b, pixel_centre(pixel.x, pixel.y))) take_pixels(pixel, pixel + replicated);
+        if (exits_diamond(a, b, pixel_center(pixel.x, pixel.y))) take_pixels(pixel, pixel + replicated);
       }
     }
   }
@@ -50,7 +50,7 @@ class Line {
       for (std::int64_t x = pixels.first_x; x <= pixels.last_x; ++x) {
         fragment_.coverage = 0;
         for (std::size_t i = 0; i < offsets.size(); ++i)
-          if (is_in_rectangle(pixel_centre(x, y) + offsets[i], width)) fragment_.coverage |= 1u << i;
+          if (is_in_rectangle(pixel_center(x, y) + offsets[i], width)) fragment_.coverage |= 1u << i;
         if (fragment_.coverage != 0) take_fragment({x, y});
       }
   }
@@ -67,7 +67,7 @@ class Line {
 
   void take_pixels(Point first, Point last) {
     const Pixels pixels =
-        visible_pixels(pixel_centre(first.x, first.y), pixel_centre(last.x, last.y), window_);
+        visible_pixels(pixel_center(first.x, first.y), pixel_center(last.x, last.y), window_);
     fragment_.coverage = 1;
     for (std::int64_t y = pixels.first_y; y <= pixels.last_y; ++y)
       for (std::int64_t x = pixels.first_x; x <= pixels.last_x; ++x) take_fragment({x, y});
@@ -106,11 +106,11 @@ class Line {
     const std::span<const Point> offsets = sample_offsets(window_.samples);
     fragment_.x = static_cast<int>(pixel.x + window_.viewport.x);
     fragment_.y = static_cast<int>(pixel.y + window_.viewport.y);
-    const Point centre = pixel_centre(pixel.x, pixel.y);
+    const Point center = pixel_center(pixel.x, pixel.y);
     for (std::size_t i = 0; i < offsets.size(); ++i)
       fragment_.depth[i] =
-          std::clamp(a_.depth + t_at(centre + offsets[i]) * (b_.depth - a_.depth) + depth_offset_, 0.0, 1.0);
-    const double t = t_at(centre);
+          std::clamp(a_.depth + t_at(center + offsets[i]) * (b_.depth - a_.depth) + depth_offset_, 0.0, 1.0);
+    const double t = t_at(center);
     const double wa = (1 - t) * a_.inverse_w;
     const double wb = t * b_.inverse_w;
     for (std::size_t i = 0; i < fragment_.weights.size(); ++i)

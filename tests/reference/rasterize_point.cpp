@@ -36,8 +36,8 @@ void rasterize_point(const WindowVertex& vertex, double size, double depth_offse
   const bool is_disc = window.samples > 1;
   const Pixels pixels =
       is_disc ? visible_pixels(vertex.at - Point{reach, reach}, vertex.at + Point{reach, reach}, window)
-              : visible_pixels(pixel_centre(square.x, square.y),
-                               pixel_centre(square.x + whole - 1, square.y + whole - 1), window);
+              : visible_pixels(pixel_center(square.x, square.y),
+                               pixel_center(square.x + whole - 1, square.y + whole - 1), window);
   const std::span<const Point> offsets = sample_offsets(window.samples);
   for (std::int64_t y = pixels.first_y; y <= pixels.last_y; ++y)
     for (std::int64_t x = pixels.first_x; x <= pixels.last_x; ++x) {
@@ -45,7 +45,7 @@ void rasterize_point(const WindowVertex& vertex, double size, double depth_offse
       fragment.y = static_cast<int>(y + window.viewport.y);
       fragment.coverage = is_disc ? 0 : 1;
       for (std::size_t i = 0; is_disc && i < offsets.size(); ++i)
-        if (is_in_disc(pixel_centre(x, y) + offsets[i] - vertex.at, used)) fragment.coverage |= 1u << i;
+        if (is_in_disc(pixel_center(x, y) + offsets[i] - vertex.at, used)) fragment.coverage |= 1u << i;
       if (fragment.coverage != 0) take(fragment);
     }
 }

@@ -155,12 +155,12 @@ void WindowPolygon::for_each_fragment(double depth_offset, const FragmentCallbac
   Fragment fragment;
   for (std::int64_t y = pixels.first_y; y <= pixels.last_y; ++y)
     for (std::int64_t x = pixels.first_x; x <= pixels.last_x; ++x) {
-      const Point centre = pixel_centre(x, y);
+      const Point center = pixel_center(x, y);
       fragment.x = static_cast<int>(x + window_.viewport.x);
       fragment.y = static_cast<int>(y + window_.viewport.y);
       fragment.coverage = 0;
       for (std::size_t i = 0; i < offsets.size(); ++i) {
-        const Point sample = centre + offsets[i];
+        const Point sample = center + offsets[i];
         const Part* part = part_at(sample);
         if (part == nullptr) continue;
         fragment.coverage |= 1u << i;
@@ -168,10 +168,10 @@ void WindowPolygon::for_each_fragment(double depth_offset, const FragmentCallbac
       }
       if (fragment.coverage == 0) continue;
       // None beyond the edge, where a sliver of the fan would extrapolate.
-      const Part* covering = part_at(centre);
+      const Part* covering = part_at(center);
       const Part& part = covering != nullptr ? *covering : largest_part();
-      set_share(fragment, part, centre);
-      if (window_.derivatives) set_derivatives(fragment, part, centre);
+      set_share(fragment, part, center);
+      if (window_.derivatives) set_derivatives(fragment, part, center);
       take(fragment);
     }
 }

@@ -42,7 +42,8 @@ struct FrameBufferFormat {
 
 /// A rectangle of pixels in window coordinates (origin lower left, y up): x..x+width-1, y..y+height-1.
 struct Rect {
-  int x = 0, y = 0, width = 0, height = 0;
+  int x = 0, y = 0;
+  int width = 0, height = 0;
 };
 
 // ---- Camera, lights, materials

@@ -107,11 +107,11 @@ Mesh teapot_mesh(int detail) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  const Vec3 centre = 0.5 * (low + high);
+  const Vec3 center = 0.5 * (low + high);
   const Vec3 size = high - low;
   const double scale = 2 / std::max({size.x, size.y, size.z});
   for (Vec4& p : mesh.positions)
-    p = {scale * (p.x - centre.x), scale * (p.y - centre.y), scale * (p.z - centre.z), 1};
+    p = {scale * (p.x - center.x), scale * (p.y - center.y), scale * (p.z - center.z), 1};
   return mesh;
 }
 

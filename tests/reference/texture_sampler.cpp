@@ -102,7 +102,8 @@ Vec4 TextureSampler::nearest(std::size_t level, TexCoord at) const {
 Vec4 TextureSampler::linear(std::size_t level, TexCoord at) const {
   const auto [w, h] = std::pair{mipmaps_[level].width, mipmaps_[level].height};
   const double u = wrapped(at.s, wrap_s_, w) * w - 0.5, v = wrapped(at.t, wrap_t_, h) * h - 0.5;
-  const double a = u - std::floor(u), b = v - std::floor(v);
+  const double a = u - std::floor(u);
+  const double b = v - std::floor(v);
   const auto i = static_cast<std::int64_t>(std::floor(u));
   const auto j = static_cast<std::int64_t>(std::floor(v));
   const auto at_texel = [&, width = w, height = h](std::int64_t x, std::int64_t y) {
@@ -119,7 +120,8 @@ Vec4 TextureSampler::sample(TexCoord at, double lambda) const {
   // If magnification is the sharper filter, it switches half a level later.
   const bool is_late = mag_ == MagFilter::kLinear &&
                        (min_ == MinFilter::kNearestMipmapNearest || min_ == MinFilter::kNearestMipmapLinear);
-  if (!(lambda > (is_late ? 0.5 : 0.0))) return mag_ == MagFilter::kLinear ? linear(0, at) : nearest(0, at);
+  const bool is_minified = lambda > (is_late ? 0.5 : 0.0);
+  if (!is_minified) return mag_ == MagFilter::kLinear ? linear(0, at) : nearest(0, at);
 
   const auto in_level = [&](std::size_t level) {
     return is_linear_in_level(min_) ? linear(level, at) : nearest(level, at);

@@ -32,7 +32,7 @@ class TextureSampler {
   /// per pixel; minus infinity if they are null.
   double level_of_detail(TexCoord d_dx, TexCoord d_dy) const;
 
-  /// Same format as pixel_color().
+  /// Red, green, blue, alpha, as pixel_color() returns them.
   Vec4 sample(TexCoord at, double level_of_detail) const;
 
  private:

@@ -9,7 +9,9 @@ namespace {
 // direction.
 Mat4 normal_matrix(const Mat4& m) {
   const auto column = [&](std::size_t c) { return Vec3{m.rows[0][c], m.rows[1][c], m.rows[2][c]}; };
-  const Vec3 a = column(0), b = column(1), c = column(2);
+  const Vec3 a = column(0);
+  const Vec3 b = column(1);
+  const Vec3 c = column(2);
   const double determinant = dot(a, cross(b, c));
   const double scale = determinant != 0 ? 1 / determinant : 1;
   const std::array<Vec3, 3> columns{scale * cross(b, c), scale * cross(c, a), scale * cross(a, b)};

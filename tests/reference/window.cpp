@@ -7,8 +7,8 @@ namespace tessera::reference {
 namespace {
 
 // Relative to the viewport's centre, so that moving the viewport by whole pixels changes nothing.
-std::int64_t snap(double pixels_from_centre) {
-  return static_cast<std::int64_t>(std::floor(pixels_from_centre * kSubpixels + 0.5));
+std::int64_t snap(double pixels_from_center) {
+  return static_cast<std::int64_t>(std::floor(pixels_from_center * kSubpixels + 0.5));
 }
 
 std::int64_t floor_pixel(std::int64_t subpixels) { return subpixels >> 8; }
@@ -24,7 +24,7 @@ constexpr std::array<Point, N> pattern(std::array<Point, N> sixteenths) {
   return sixteenths;
 }
 
-constexpr std::array<Point, 1> kCentre{};
+constexpr std::array<Point, 1> kCenter{};
 constexpr auto kFour = pattern<4>({{{-2, 6}, {6, 2}, {-6, -2}, {2, -6}}});
 constexpr auto kEight =
     pattern<8>({{{1, 3}, {-1, -3}, {5, -1}, {-3, 5}, {-5, -5}, {-7, 1}, {3, -7}, {7, 7}}});
@@ -33,8 +33,10 @@ static_assert(kEight.size() == kMaxSamples);
 }  // namespace
 
 Rect intersection(Rect a, Rect b) {
-  const int left = std::max(a.x, b.x), right = std::min(a.x + a.width, b.x + b.width);
-  const int bottom = std::max(a.y, b.y), top = std::min(a.y + a.height, b.y + b.height);
+  const int left = std::max(a.x, b.x);
+  const int right = std::min(a.x + a.width, b.x + b.width);
+  const int bottom = std::max(a.y, b.y);
+  const int top = std::min(a.y + a.height, b.y + b.height);
   return {left, bottom, std::max(0, right - left), std::max(0, top - bottom)};
 }
 
@@ -59,7 +61,7 @@ WindowVertex window_vertex(const ClipVertex& vertex, const Window& window) {
 std::span<const Point> sample_offsets(int samples) {
   if (samples == 4) return kFour;
   if (samples == 8) return kEight;
-  return kCentre;
+  return kCenter;
 }
 
 Pixels visible_pixels(Point low, Point high, const Window& window) {

@@ -89,7 +89,7 @@ struct Pixels {
 /// Visible pixels of the smallest rectangle that contains all points between `low` and `high`.
 Pixels visible_pixels(Point low, Point high, const Window& window);
 
-inline Point pixel_centre(std::int64_t x, std::int64_t y) {
+inline Point pixel_center(std::int64_t x, std::int64_t y) {
   return {x * kSubpixels + kSubpixels / 2, y * kSubpixels + kSubpixels / 2};
 }
 

@@ -1,5 +1,4 @@
-// Lights far brighter than 1 make the tails of highlights visible: near-zero bases times near-infinite
-// factors, in every kernel.
+// Lights far brighter than 1 show the tails of highlights: bases near 0 times huge factors, in every kernel.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,21 +13,24 @@ namespace {
 /// the highlight is rounded.
 struct BrightHighlight {
   LightKind kind = LightKind::point;
-  bool local_viewer = false, phong_highlight = false, colors_vertices = false;
-  float brightness = 1, constant = 1;
+  bool local_viewer = false;
+  bool phong_highlight = false;
+  bool tracks_specular = false;  ///< the brightness is that of vertex colours, not of the light
+  float brightness = 1;
+  float constant = 1;  ///< constant attenuation
 
   LightingCase lit(float shininess) const {
     LightingCase c;
     c.material = {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, {0, 0, 0}, shininess};
     c.model = {{0, 0, 0}, local_viewer, phong_highlight, true};
     c.renormalize = true;
-    c.tracked.specular = colors_vertices;
+    c.tracked.specular = tracks_specular;
     EyeLight l;
     l.directional = kind == LightKind::directional;
     l.position = {0, 0, l.directional ? 1.0f : 2.0f};
     l.ambient = l.diffuse = {0, 0, 0};
-    const float shines = colors_vertices ? 1 : brightness;
-    l.specular = {shines, shines, shines};
+    const float light_brightness = tracks_specular ? 1 : brightness;
+    l.specular = {light_brightness, light_brightness, light_brightness};
     l.spot_direction = {0, 0, -1};
     l.spot_cutoff = is_spot(kind) ? 30.0f : 180.0f;
     if (kind == LightKind::attenuated_point || kind == LightKind::attenuated_spot)
@@ -52,10 +54,11 @@ std::vector<BrightHighlight> all_highlights() {
   for (int kind = 0; kind < kLightKinds; ++kind)
     for (const bool local : {false, true})
       for (const bool phong : {false, true})
-        for (const bool of_vertices : {false, true})
+        for (const bool tracks_specular : {false, true})
           for (const float brightness : {1.0f, 2e9f, 3e20f, 1.9e28f})
             for (const float constant : {1.0f, 0x1p-30f})
-              all.push_back({static_cast<LightKind>(kind), local, phong, of_vertices, brightness, constant});
+              all.push_back(
+                  {static_cast<LightKind>(kind), local, phong, tracks_specular, brightness, constant});
   return all;
 }
 
@@ -73,14 +76,15 @@ TEST(BrightHighlights, ShowTheirTails) {
         const double cosine = std::pow(share / bright.factor(), 1 / double{exponent});
         if (cosine < (bright.phong_highlight ? 0.01 : 1e-36)) continue;  // smaller than any float
         const LightingProgram program = bright.lit(exponent).program();
-        squared += program.terms[0].squared, sharp += program.terms[0].sharp;
+        squared += program.terms[0].squared;
+        sharp += program.terms[0].sharp;
         for (const InstructionSet isa : available_isas()) {
           const double found = light(program, bright.points(cosine), isa)[7][1];
           ASSERT_NEAR(found, share, 4e-6 * exponent + 1e-5)
               << name_of(isa) << ", kind " << static_cast<int>(bright.kind) << ", exponent " << exponent
               << ", brightness " << bright.brightness << " over " << bright.constant
               << (bright.local_viewer ? ", local viewer" : "") << (bright.phong_highlight ? ", R.E" : "")
-              << (bright.colors_vertices ? ", vertex colours" : "");
+              << (bright.tracks_specular ? ", vertex colours" : "");
         }
         ++compared;
       }
@@ -107,8 +111,8 @@ TEST(BrightHighlights, IndexHighlightsShowTheirTails) {
     for (const float exponent : kExponents)
       for (const double share : kShares) {
         const double cosine = std::pow(share / bright.brightness, 1 / double{exponent});
-        if (bright.constant < 1 || bright.colors_vertices || cosine < (bright.phong_highlight ? 0.01 : 1e-36))
-          continue;
+        if (bright.constant < 1 || bright.tracks_specular) continue;
+        if (cosine < (bright.phong_highlight ? 0.01 : 1e-36)) continue;  // smaller than any float
         const LightingCase c = bright.lit(exponent);
         LightingProgram program =
             plan_index_lighting({{0, 0, 1000}, exponent, 4096}, c.lights, c.model, nullptr);

@@ -16,21 +16,25 @@ void store_fragments_lanes(const FragmentOps& ops, const ColorLayout& layout,
     for (int c = 0; c < 4; ++c) source.c[c] = hn::LoadU(kFloat, arrays.source[c] + i);
     const Int stored = hn::LoadU(kInt, arrays.stored + i);
     if (ops.blend) source = blend_lanes(ops, source, unpack_colors(layout, stored));
-    const Int words = pack_colors(layout, source, splat(arrays.threshold));
-    hn::StoreU(ops.logic == LogicOp::copy ? words : logic_op_lanes(ops.logic, words, stored), kInt,
-               arrays.words + i);
+    const Int packed = pack_colors(layout, source, splat(arrays.threshold));
+    const Int result = ops.logic == LogicOp::copy ? packed : logic_op_lanes(ops.logic, packed, stored);
+    hn::StoreU(result, kInt, arrays.results + i);
   }
 }
 
-void test_stencil_lanes(const StencilSide& side, std::int32_t most, const test::FragmentArrays& arrays) {
-  const StencilTestConstants steps = stencil_test_constants(side, most);
+void test_stencil_lanes(const StencilSide& side, std::int32_t max_value, const test::FragmentArrays& arrays) {
+  const StencilTestConstants constants = stencil_test_constants(side, max_value);
   for (std::size_t i = 0; i < arrays.count; i += kLanes) {
-    const Int stored = hn::LoadU(kInt, arrays.stored + i), outcome = hn::LoadU(kInt, arrays.outcome + i);
-    const LaneMask covered = hn::Gt(outcome, hn::Zero(kInt)), deep = hn::Gt(outcome, splat(1));
-    const LaneMask passed = hn::And(covered, stencil_passes(steps, stored)), zpassed = hn::And(passed, deep);
-    const Int value =
-        stencil_result(steps, stored, hn::AndNot(passed, covered), hn::AndNot(zpassed, passed), zpassed);
-    hn::StoreU(hn::Or(value, hn::And(hn::VecFromMask(kInt, passed), splat(256))), kInt, arrays.words + i);
+    const Int stored = hn::LoadU(kInt, arrays.stored + i);
+    const Int outcome = hn::LoadU(kInt, arrays.outcome + i);
+    const LaneMask covered = hn::Gt(outcome, hn::Zero(kInt));
+    const LaneMask passed = hn::And(covered, stencil_passes(constants, stored));
+    const LaneMask failed = hn::AndNot(passed, covered);
+    const LaneMask zpassed = hn::And(passed, hn::Gt(outcome, splat(1)));
+    const LaneMask zfailed = hn::AndNot(zpassed, passed);
+    const Int value = stencil_result(constants, stored, failed, zfailed, zpassed);
+    const Int passed_bit = hn::And(hn::VecFromMask(kInt, passed), splat(256));
+    hn::StoreU(hn::Or(value, passed_bit), kInt, arrays.results + i);
   }
 }
 

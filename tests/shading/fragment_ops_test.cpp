@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "shading/fragment_ops_reference.h"
@@ -12,7 +13,12 @@
 namespace tessera::detail {
 namespace {
 
-constexpr int kCompareOps = 8, kActions = 8, kFactors = 15, kEquations = 5, kLogics = 16;
+// Numbers of enumerators.
+constexpr int kCompareOps = 8;
+constexpr int kStencilOps = 8;
+constexpr int kFactors = 15;
+constexpr int kEquations = 5;
+constexpr int kLogicOps = 16;
 
 reference::StencilFace reference_face(const StencilSide& side) {
   return {.func = static_cast<reference::Compare>(side.func),
@@ -24,48 +30,53 @@ reference::StencilFace reference_face(const StencilSide& side) {
           .write_mask = static_cast<std::uint32_t>(side.write_mask)};
 }
 
-// 8 functions x 8 operations, in each outcome, over every stored value, with masks, for 1, 3 and 8 bits.
+// 8 functions x 8 actions, in each outcome, over every stored value, with masks, for 1, 3 and 8 bits.
 TEST(FragmentOps, StencilTruthTables) {
-  std::vector<std::int32_t> stored, outcome;
+  std::vector<std::int32_t> stored;
+  std::vector<std::int32_t> outcome;
   for (int value = 0; value < 256; ++value)
-    for (int o = 0; o < 4; ++o) stored.push_back(value), outcome.push_back(o == 3 ? 2 : o);
-  std::vector<std::int32_t> words(stored.size());
+    for (const int o : {0, 1, 2, 2}) {
+      stored.push_back(value);
+      outcome.push_back(o);
+    }
+  std::vector<std::int32_t> results(stored.size());
   std::size_t checked = 0;
   for (const int bits : {1, 3, 8}) {
-    const std::int32_t most = (1 << bits) - 1;
+    const std::int32_t max_value = (1 << bits) - 1;
     for (int func = 0; func < kCompareOps; ++func)
-      for (int action = 0; action < kActions; ++action)
+      for (int action = 0; action < kStencilOps; ++action)
         for (const auto& [reference_value, mask, write_mask] : {std::array<std::int32_t, 3>{0, 255, 255},
                                                                 {1, 255, 255},
-                                                                {most, 255, 255},
+                                                                {max_value, 255, 255},
                                                                 {5, 6, 255},
                                                                 {200, 255, 0x55},
                                                                 {77, 0, 0}}) {
-          // Each operation occurs once per outcome, together with others.
+          // Each action occurs once per outcome, together with others.
           const StencilSide side{.func = static_cast<Compare>(func),
-                                 .reference = std::min(reference_value, most),
-                                 .mask = mask & most,
+                                 .reference = std::min(reference_value, max_value),
+                                 .mask = mask & max_value,
                                  .fail = static_cast<StencilOp>(action),
-                                 .zfail = static_cast<StencilOp>((action + 3) % kActions),
-                                 .zpass = static_cast<StencilOp>((action + 5) % kActions),
-                                 .write_mask = write_mask & most};
+                                 .zfail = static_cast<StencilOp>((action + 3) % kStencilOps),
+                                 .zpass = static_cast<StencilOp>((action + 5) % kStencilOps),
+                                 .write_mask = write_mask & max_value};
           const reference::StencilFace face = reference_face(side);
           for (const InstructionSet isa : available_isas()) {
-            test::test_stencil(isa)(side, most,
+            test::test_stencil(isa)(side, max_value,
                                     {.count = stored.size(),
                                      .source = {},
                                      .stored = stored.data(),
                                      .outcome = outcome.data(),
                                      .threshold = 0,
-                                     .words = words.data()});
+                                     .results = results.data()});
             for (std::size_t i = 0; i < stored.size(); ++i) {
-              if (stored[i] > most) continue;
+              if (stored[i] > max_value) continue;
               const auto before = static_cast<std::uint32_t>(stored[i]);
               const bool passes = outcome[i] > 0 && reference::passes_stencil(face, before, bits);
-              const reference::StencilOp op = !passes ? face.fail : outcome[i] == 2 ? face.zpass : face.zfail;
+              reference::StencilOp op = face.fail;
+              if (passes) op = outcome[i] == 2 ? face.zpass : face.zfail;
               const std::uint32_t after =
                   outcome[i] == 0 ? before : reference::stencil_after(op, face, before, bits);
-              ASSERT_EQ(static_cast<std::uint32_t>(words[i]), after | (passes ? 256u : 0u))
+              ASSERT_EQ(static_cast<std::uint32_t>(results[i]), after | (passes ? 256u : 0u))
                   << "func " << func << " action " << action << " stored " << before << " outcome "
                   << outcome[i];
               ++checked;
@@ -83,23 +94,26 @@ TEST(FragmentOps, CompareAndLogicTables) {
         EXPECT_EQ(compares(a, static_cast<Compare>(op), b),
                   reference::passes(static_cast<reference::Compare>(op), a, b));
   constexpr std::uint32_t kSource = 0x0f5a33c5u, kStored = 0x3355aa0fu;
-  for (int logic = 0; logic < kLogics; ++logic)
+  for (int logic = 0; logic < kLogicOps; ++logic)
     EXPECT_EQ(logic_op_reference(static_cast<LogicOp>(logic), kSource, kStored),
               reference::combined(static_cast<reference::LogicOp>(logic), kSource, kStored))
         << logic;
 }
 
-struct Samples {
+/// Random fragments, and stored packed colours. A fifth of the components are 0 or 1.
+struct RandomFragments {
   std::vector<float> c[4];
-  std::vector<std::int32_t> stored, words;
-  explicit Samples(std::size_t count) : stored(count), words(count) {
+  std::vector<std::int32_t> stored;
+  std::vector<std::int32_t> results;
+
+  explicit RandomFragments(std::size_t count) : stored(count), results(count) {
     std::uint32_t random = 7;
     const auto next = [&] { return random = random * 1664525u + 1013904223u; };
     for (auto& list : c)
       for (std::size_t i = 0; i < count; ++i)
         list.push_back(i % 5 == 0 ? static_cast<float>(next() >> 31)
                                   : static_cast<float>(next() >> 8) * 0x1p-24f);
-    for (std::int32_t& word : stored) word = static_cast<std::int32_t>(next());
+    for (std::int32_t& packed : stored) packed = static_cast<std::int32_t>(next());
   }
   test::FragmentArrays arrays(float threshold) {
     return {.count = stored.size(),
@@ -107,7 +121,7 @@ struct Samples {
             .stored = stored.data(),
             .outcome = nullptr,
             .threshold = threshold,
-            .words = words.data()};
+            .results = results.data()};
   }
 };
 
@@ -122,12 +136,13 @@ std::vector<ColorLayout> layouts() {
   return all;
 }
 
-// All pairs of factors for colour and alpha, all equations, all bit depths: twin bit for bit, and within
-// float rounding of the reference's doubles.
+// All pairs of factors for colour and alpha, all equations, several bit depths: bit-identical to the twin,
+// which is within float rounding of the reference in double.
 TEST(FragmentOps, BlendFactorsAndEquations) {
-  Samples samples(64);
+  RandomFragments fragments(64);
+  const std::set<int> bit_depths = {1, 8, 15, 24};
   for (const ColorLayout& layout : layouts()) {
-    if (layout.bits != 1 && layout.bits != 8 && layout.bits != 15 && layout.bits != 24) continue;
+    if (!bit_depths.contains(layout.bits)) continue;
     for (int equation = 0; equation < kEquations; ++equation)
       for (int pair = 0; pair < kFactors * kFactors; ++pair) {
         FragmentOps ops;
@@ -143,13 +158,13 @@ TEST(FragmentOps, BlendFactorsAndEquations) {
                                      .equation = static_cast<reference::BlendEquation>(equation),
                                      .color = {0.25, 0.5, 0.875, 0.375}};
         for (const InstructionSet isa : available_isas()) {
-          test::store_fragments(isa)(ops, layout, samples.arrays(0.5f));
-          for (std::size_t i = 0; i < samples.stored.size(); ++i) {
-            const Rgba source{samples.c[0][i], samples.c[1][i], samples.c[2][i], samples.c[3][i]};
+          test::store_fragments(isa)(ops, layout, fragments.arrays(0.5f));
+          for (std::size_t i = 0; i < fragments.stored.size(); ++i) {
+            const Rgba source{fragments.c[0][i], fragments.c[1][i], fragments.c[2][i], fragments.c[3][i]};
             const Rgba destination =
-                           unpack_color_reference(layout, static_cast<std::uint32_t>(samples.stored[i])),
-                       result = blend_reference(ops, source, destination);
-            ASSERT_EQ(static_cast<std::uint32_t>(samples.words[i]), pack_color(layout, result, 0.5f))
+                unpack_color_reference(layout, static_cast<std::uint32_t>(fragments.stored[i]));
+            const Rgba result = blend_reference(ops, source, destination);
+            ASSERT_EQ(static_cast<std::uint32_t>(fragments.results[i]), pack_color(layout, result, 0.5f))
                 << "pair " << pair << " equation " << equation << " bits " << layout.bits;
             const reference::Vec4 exact =
                 reference::blended(blend, {source[0], source[1], source[2], source[3]},
@@ -165,20 +180,21 @@ TEST(FragmentOps, BlendFactorsAndEquations) {
 }
 
 TEST(FragmentOps, LevelsLogicAndThresholdsInEveryLayout) {
-  Samples samples(256);
+  RandomFragments fragments(256);
   for (const ColorLayout& layout : layouts())
-    for (int logic = 0; logic < kLogics; ++logic) {
+    for (int logic = 0; logic < kLogicOps; ++logic) {
       FragmentOps ops;
       ops.logic = static_cast<LogicOp>(logic);
       for (const float threshold : {0.5f, 1 / 128.0f, 127 / 128.0f})
         for (const InstructionSet isa : available_isas()) {
-          test::store_fragments(isa)(ops, layout, samples.arrays(threshold));
-          for (std::size_t i = 0; i < samples.stored.size(); ++i) {
-            const std::uint32_t word = pack_color(
-                layout, {samples.c[0][i], samples.c[1][i], samples.c[2][i], samples.c[3][i]}, threshold);
-            ASSERT_EQ(static_cast<std::uint32_t>(samples.words[i]),
-                      logic_op_reference(ops.logic, word, static_cast<std::uint32_t>(samples.stored[i])));
-            ASSERT_EQ(word & ~(layout.value_mask() | layout.alpha_mask()), 0u);
+          test::store_fragments(isa)(ops, layout, fragments.arrays(threshold));
+          for (std::size_t i = 0; i < fragments.stored.size(); ++i) {
+            const Rgba color{fragments.c[0][i], fragments.c[1][i], fragments.c[2][i], fragments.c[3][i]};
+            const std::uint32_t packed = pack_color(layout, color, threshold);
+            const auto stored = static_cast<std::uint32_t>(fragments.stored[i]);
+            ASSERT_EQ(static_cast<std::uint32_t>(fragments.results[i]),
+                      logic_op_reference(ops.logic, packed, stored));
+            ASSERT_EQ(packed & ~(layout.value_mask() | layout.alpha_mask()), 0u);
           }
         }
     }

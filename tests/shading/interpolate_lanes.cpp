@@ -16,9 +16,12 @@ bool tile_barycentrics_lanes(const WindowVertex (&vertices)[3], int tile_x, int 
   TriangleGroup g;
   g.count = 1;
   for (int i = 0; i < kGroupSize; ++i)
-    for (int k = 0; k < 3; ++k)
-      g.x[k][i] = vertices[k].x, g.y[k][i] = vertices[k].y, g.z[k][i] = vertices[k].z,
+    for (int k = 0; k < 3; ++k) {
+      g.x[k][i] = vertices[k].x;
+      g.y[k][i] = vertices[k].y;
+      g.z[k][i] = vertices[k].z;
       g.rw[k][i] = vertices[k].rw;
+    }
   set_up_edges(g, tile_x, tile_y, {0, 0, tile_size, tile_size});
   set_up_weights(g);
   if (g.mask == 0) return false;
@@ -41,7 +44,8 @@ bool tile_barycentrics_lanes(const WindowVertex (&vertices)[3], int tile_x, int 
         hn::Store(at.b1, kFloat, lanes1);
         hn::Store(at.b2, kFloat, lanes2);
         for (int l = 0; l < kLanes; ++l) {
-          const int p = chunk * kLanes + l, pixel = (by + p / 4) * tile_size + bx + p % 4;
+          const int p = chunk * kLanes + l;
+          const int pixel = (by + p / 4) * tile_size + bx + p % 4;
           b1[pixel] = lanes1[l];
           b2[pixel] = lanes2[l];
         }
@@ -59,19 +63,20 @@ void interpolate_values_lanes(const float (&at_vertices)[3], const float* b1, co
     attributes[k][0] = at_vertices[k];
     t.attributes[k] = attributes[k];
   }
-  const Interpolant one = make_interpolant(t, 0), kept = make_interpolant(t, 0, true);
-  const InterpolantArrays several(t, 0, 1);
+  const Interpolant single = make_interpolant(t, 0);
+  const Interpolant clamped = make_interpolant(t, 0, true);
+  const InterpolantArrays arrays(t, 0, 1);
   InterpolantLanes lanes;
-  lanes.set(one);
-  ClampedInterpolantLanes kept_lanes;
-  kept_lanes.set(kept);
+  lanes.set(single);
+  ClampedInterpolantLanes clamped_lanes;
+  clamped_lanes.set(clamped);
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Barycentric at{hn::LoadU(kFloat, b1 + i), hn::LoadU(kFloat, b2 + i), splat(1.0f)};
-    hn::StoreU(interpolate(at, one), kFloat, values.alone + i);
-    hn::StoreU(interpolate(at, lanes), kFloat, values.in_lanes + i);
-    hn::StoreU(interpolate(at, several[0]), kFloat, values.of_several + i);
-    hn::StoreU(interpolate_clamped(at, kept), kFloat, values.within + i);
-    hn::StoreU(interpolate_clamped(at, kept_lanes), kFloat, values.within_lanes + i);
+    hn::StoreU(interpolate(at, single), kFloat, values.single + i);
+    hn::StoreU(interpolate(at, lanes), kFloat, values.lanes + i);
+    hn::StoreU(interpolate(at, arrays[0]), kFloat, values.arrays + i);
+    hn::StoreU(interpolate_clamped(at, clamped), kFloat, values.clamped + i);
+    hn::StoreU(interpolate_clamped(at, clamped_lanes), kFloat, values.clamped_lanes + i);
   }
 }
 

@@ -17,9 +17,11 @@ TileBarycentrics* tile_barycentrics(InstructionSet isa);
 
 /// One attribute at `count` points, a multiple of 16, by each interpolation kernel.
 struct InterpolatedValues {
-  float *alone, *in_lanes, *of_several;  ///< Interpolant, InterpolantLanes, InterpolantArrays
-  /// Clamped to the range of the vertices: Interpolant, ClampedInterpolantLanes.
-  float *within, *within_lanes;
+  float* single;         ///< Interpolant
+  float* lanes;          ///< InterpolantLanes
+  float* arrays;         ///< InterpolantArrays
+  float* clamped;        ///< Interpolant, clamped to the range of the vertices
+  float* clamped_lanes;  ///< ClampedInterpolantLanes
 };
 using InterpolateValues = void(const float (&at_vertices)[3], const float* b1, const float* b2,
                                std::size_t count, const InterpolatedValues& values);

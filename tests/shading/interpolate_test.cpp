@@ -43,11 +43,11 @@ void for_each_pixel(std::uint32_t seed, int rounds, double decades, const CheckP
     const TriangleReference reference(vertices);
     if (reference.area == 0) continue;
     for (const InstructionSet isa : available_isas()) {
-      bool touched = tile_barycentrics(isa)(vertices, 0, 0, kTile, b1.data(), b2.data());
+      const bool touched = tile_barycentrics(isa)(vertices, 0, 0, kTile, b1.data(), b2.data());
       reference.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
         ASSERT_TRUE(touched) << Describe{t};
-        check(t, reference, x, y, b1[static_cast<std::size_t>(y * kTile + x)],
-              b2[static_cast<std::size_t>(y * kTile + x)], isa);
+        const auto pixel = static_cast<std::size_t>(y * kTile + x);
+        check(t, reference, x, y, b1[pixel], b2[pixel], isa);
       });
       if (::testing::Test::HasFatalFailure()) return;
     }
@@ -69,8 +69,8 @@ TEST(Interpolate, BarycentricsMatchTheScalarTwin) {
 }
 
 // All terms are positive and rounded a few times each: 1/area, its product with 1/w, the edge, the
-// multiply-add, two sums, the quotient and the product: nine roundings, 9 * 2^-24 of a number that is at most
-// 1.
+// multiply-add, two sums, the quotient and the product. Nine roundings of a number that is at most 1 are at
+// most 9 * 2^-24.
 TEST(Interpolate, IsWithinNineRoundingsOfPerspective) {
   for (const double decades : {0.5, 6.0, 12.0}) {
     double worst = 0;
@@ -78,10 +78,12 @@ TEST(Interpolate, IsWithinNineRoundingsOfPerspective) {
                    [&](const Triangle& t, const TriangleReference& reference, int x, int y, float b1,
                        float b2, InstructionSet) {
                      long double weight[3], sum = 0;
-                     for (std::size_t k = 0; k < 3; ++k)
-                       sum += weight[k] = static_cast<long double>(reference.edge[k].at(x, y)) * t[k].rw;
-                     const double error1 = static_cast<double>(std::abs(b1 - weight[1] / sum)),
-                                  error2 = static_cast<double>(std::abs(b2 - weight[2] / sum));
+                     for (std::size_t k = 0; k < 3; ++k) {
+                       weight[k] = static_cast<long double>(reference.edge[k].at(x, y)) * t[k].rw;
+                       sum += weight[k];
+                     }
+                     const auto error1 = static_cast<double>(std::abs(b1 - weight[1] / sum));
+                     const auto error2 = static_cast<double>(std::abs(b2 - weight[2] / sum));
                      update_worst(worst, error1, error2);
                      ASSERT_LE(worst, 9 * 0x1p-24) << Describe{t};
                      ASSERT_GE(b1, 0);
@@ -97,7 +99,7 @@ constexpr std::size_t kPoints = 64;
 
 /// An attribute at points inside a triangle and, like the centres of multisampled pixels, outside of it.
 struct InterpolatedPoints {
-  std::array<float, kPoints> b1, b2, alone, in_lanes, of_several, within, within_lanes;
+  std::array<float, kPoints> b1, b2, single, lanes, arrays, clamped, clamped_lanes;
 
   explicit InterpolatedPoints(RandomTriangles& source) {
     for (std::size_t i = 0; i < kPoints; ++i) {
@@ -108,11 +110,11 @@ struct InterpolatedPoints {
     b1[2] = b2[3] = 1;
   }
   void interpolate(InstructionSet isa, const float (&at_vertices)[3]) {
-    for (auto* values : {&alone, &in_lanes, &of_several, &within, &within_lanes})
+    for (auto* values : {&single, &lanes, &arrays, &clamped, &clamped_lanes})
       values->fill(std::numeric_limits<float>::quiet_NaN());
     interpolate_values(isa)(
         at_vertices, b1.data(), b2.data(), kPoints,
-        {alone.data(), in_lanes.data(), of_several.data(), within.data(), within_lanes.data()});
+        {single.data(), lanes.data(), arrays.data(), clamped.data(), clamped_lanes.data()});
   }
 };
 
@@ -129,11 +131,11 @@ TEST(Interpolate, ValuesMatchTheScalarTwin) {
       points.interpolate(isa, v);
       for (std::size_t i = 0; i < kPoints; ++i) {
         const float expected = BarycentricReference{points.b1[i], points.b2[i]}.interpolate(v[0], v[1], v[2]);
-        for (const float found : {points.alone[i], points.in_lanes[i], points.of_several[i]})
+        for (const float found : {points.single[i], points.lanes[i], points.arrays[i]})
           ASSERT_EQ(std::bit_cast<std::uint32_t>(found), std::bit_cast<std::uint32_t>(expected))
               << name_of(isa) << ", " << points.b1[i] << " " << points.b2[i] << ", of " << v[0] << " " << v[1]
               << " " << v[2];
-        for (const float found : {points.within[i], points.within_lanes[i]})
+        for (const float found : {points.clamped[i], points.clamped_lanes[i]})
           ASSERT_EQ(found, std::clamp(expected, low, high)) << name_of(isa);
       }
     }
@@ -148,7 +150,7 @@ TEST(Interpolate, ConstantsStayExactlyConstant) {
       for (const InstructionSet isa : available_isas()) {
         points.interpolate(isa, {value, value, value});
         for (const auto* values :
-             {&points.alone, &points.in_lanes, &points.of_several, &points.within, &points.within_lanes})
+             {&points.single, &points.lanes, &points.arrays, &points.clamped, &points.clamped_lanes})
           for (const float found : *values) ASSERT_EQ(found, value) << name_of(isa);
       }
   }

@@ -59,7 +59,7 @@ struct KnownColorCase {
     for (LightingPoint& p : points) p = {{0, 0, 1}, {0, 0, -2}, {1, 1, 1}};
   }
   EyeLight& light() { return c.lights[0]; }
-  // Computed by hand: the base colour, then the part multiplied by attenuation and spot.
+  /// Expects a colour computed by hand: red, and green and blue, which are equal.
   void expect(double red, double green) {
     for (const InstructionSet isa : available_isas()) {
       const Rgb color = test::light(c.program(), points, isa)[5];
@@ -70,6 +70,11 @@ struct KnownColorCase {
     EXPECT_LE(distance_to_formula(c, points), 2e-6);
   }
 };
-inline constexpr double kBase = 0.2 * 0.1, kGlow = 0.05, kAmbient = 0.05, kDiffuse = 0.5, kSpecular = 0.25;
+// Terms of KnownColorCase.
+inline constexpr double kGlow = 0.05;       // emission, only red
+inline constexpr double kBase = 0.2 * 0.1;  // scene ambient
+inline constexpr double kAmbient = 0.05;
+inline constexpr double kDiffuse = 0.5;
+inline constexpr double kSpecular = 0.25;
 
 }  // namespace tessera::test

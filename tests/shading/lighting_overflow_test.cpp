@@ -61,14 +61,17 @@ TEST(LightingOverflow, AttenuationOfHugeDistancesIsFinite) {
     }
 }
 
-/// A light whose contribution, or one of whose factors, overflows float.
+/// A lit point whose light, or one factor of it, overflows float.
 struct OverflowingLight {
   const char* name;
-  std::array<float, 3> normal, position;
+  std::array<float, 3> normal;    ///< normal of the point
+  std::array<float, 3> position;  ///< position of the point
   EyeLight light;
 };
 std::vector<OverflowingLight> overflowing_lights() {
-  constexpr float kThird = 0.57735026f, kSixth = 0.4082483f, kLargest = std::numeric_limits<float>::max();
+  constexpr float kInverseSqrt3 = 0.57735026f;
+  constexpr float kInverseSqrt6 = 0.4082483f;
+  constexpr float kLargest = std::numeric_limits<float>::max();
   std::vector<OverflowingLight> all;
   const auto add = [&](const char* name, const std::array<float, 3>& normal, const auto& change) {
     EyeLight light = KnownColorCase().light();
@@ -79,18 +82,20 @@ std::vector<OverflowingLight> overflowing_lights() {
   const auto attenuated = [](float constant) {
     return [constant](OverflowingLight& e) { e.light.attenuation = {constant, 0, 0}; };
   };
-  add("the inverse of a small denominator", {0, 0, 1}, attenuated(1e-42f));
-  add("the inverse of a small denominator, with the largest colour", {0, 0, 1}, [&](OverflowingLight& e) {
-    e.light.attenuation = {1e-42f, 0, 0}, e.light.diffuse = {0, kLargest, 0};
+  add("attenuation 1e-42", {0, 0, 1}, attenuated(1e-42f));
+  add("attenuation 1e-42, largest colour", {0, 0, 1}, [&](OverflowingLight& e) {
+    e.light.attenuation = {1e-42f, 0, 0};
+    e.light.diffuse = {0, kLargest, 0};
   });
-  add("the same on long normals", {0, 0, 100}, attenuated(1e-42f));
-  add("the same on longer ones", {0, 0, 1e10f}, attenuated(1e-42f));
-  add("the longest normals", {0, 0, 3e38f}, attenuated(0.5f));
-  add("the longest normals, without attenuation", {3e38f, 3e38f, 3e38f}, [&](OverflowingLight& e) {
-    e.light.directional = true, e.light.position = {kThird, kThird, kThird};
+  add("attenuation 1e-42, normals of length 100", {0, 0, 100}, attenuated(1e-42f));
+  add("attenuation 1e-42, normals of length 1e10", {0, 0, 1e10f}, attenuated(1e-42f));
+  add("normals of length 3e38", {0, 0, 3e38f}, attenuated(0.5f));
+  add("directional light, normals of length 5e38", {3e38f, 3e38f, 3e38f}, [&](OverflowingLight& e) {
+    e.light.directional = true;
+    e.light.position = {kInverseSqrt3, kInverseSqrt3, kInverseSqrt3};
   });
-  // Squares of such distances have few digits: |L| and V.D are 1.2.
-  add("a cone and attenuation, from a tiny distance", {0, 0, 1}, [](OverflowingLight& e) {
+  // Squares of such small distances have few digits: |L| and V.D come out as 1.2.
+  add("spot light at a distance of 4.5e-23", {0, 0, 1}, [](OverflowingLight& e) {
     e.position = {0, 0, 0};
     e.light.position = {0, 0, 4.5e-23f};
     e.light.attenuation = {0, 1, 0};
@@ -98,25 +103,28 @@ std::vector<OverflowingLight> overflowing_lights() {
     e.light.spot_cutoff = 90;
     e.light.spot_exponent = 16384;
   });
-  // The cosine between its direction and its axis is 1 + 2^-23.
-  add("the largest colour in a cone's axis", {0, 0, 1}, [&](OverflowingLight& e) {
+  // The computed cosine between its direction and its axis is 1 + 2^-23.
+  add("spot light of the largest colour, on its axis", {0, 0, 1}, [&](OverflowingLight& e) {
     e.light.directional = true;
-    e.light.position = {kSixth, kSixth, 2 * kSixth};
-    e.light.spot_direction = {-kSixth, -kSixth, -2 * kSixth};
+    e.light.position = {kInverseSqrt6, kInverseSqrt6, 2 * kInverseSqrt6};
+    e.light.spot_direction = {-kInverseSqrt6, -kInverseSqrt6, -2 * kInverseSqrt6};
     e.light.spot_cutoff = 90;
     e.light.spot_exponent = 16384;
     e.light.diffuse = e.light.specular = {0, kLargest, 0};
   });
   return all;
 }
+
 // Lit components saturate, back-facing points stay unlit, and black stays black: for black lights, black
 // vertices, and under infinite highlights.
 TEST(LightingOverflow, InfiniteLightsLeaveBlackComponentsAlone) {
-  for (const OverflowingLight& overflowing : overflowing_lights())
+  const auto has_black_vertex = [](std::size_t i) { return i % 4 == 3; };
+  const auto faces_away = [](std::size_t i) { return i >= 16 && i % 2 == 0; };
+  for (const OverflowingLight& lit : overflowing_lights())
     for (const bool tracked : {false, true})
       for (const float ambient : {0.0f, 1.0f}) {
         KnownColorCase s;
-        s.light() = overflowing.light;
+        s.light() = lit.light;
         s.light().ambient[1] = ambient;
         s.c.material.diffuse = {1, 1, 1};
         s.c.material.specular = tracked ? Rgb{} : Rgb{1, 1, 1};
@@ -125,32 +133,34 @@ TEST(LightingOverflow, InfiniteLightsLeaveBlackComponentsAlone) {
         s.points.resize(kBatchPoints);
         for (std::size_t i = 0; i < s.points.size(); ++i) {
           LightingPoint& p = s.points[i];
-          p = {overflowing.normal, overflowing.position, i % 4 == 3 ? Rgb{0, 0, 0} : Rgb{1, 1, 1}};
-          if (i >= 16 && i % 2 == 0)
+          p = {lit.normal, lit.position, has_black_vertex(i) ? Rgb{0, 0, 0} : Rgb{1, 1, 1}};
+          if (faces_away(i))
             for (float& n : p.normal) n = -n;
         }
-        SCOPED_TRACE(std::string(overflowing.name) + (tracked ? ", tracked" : "") +
+        SCOPED_TRACE(std::string(lit.name) + (tracked ? ", tracked" : "") +
                      (ambient != 0 ? ", ambient" : ""));
         for (const InstructionSet isa : available_isas()) {
           const std::vector<Rgb> colors = test::light(s.c.program(), s.points, isa);
           for (std::size_t i = 0; i < colors.size(); ++i) {
             EXPECT_NEAR(colors[i][0], kGlow + kBase, 1e-7) << name_of(isa) << " " << i;
-            if (i < 16 && (!tracked || i % 4 != 3)) {
+            const bool is_black = tracked && has_black_vertex(i);
+            if (i < 16 && !is_black) {
               EXPECT_EQ(colors[i][1], 1) << name_of(isa) << " " << i;
             }
-            if (((i >= 16 && i % 2 == 0) || (tracked && i % 4 == 3)) && ambient == 0) {
+            if ((faces_away(i) || is_black) && ambient == 0) {
               EXPECT_NEAR(colors[i][1], kBase, 1e-7) << name_of(isa) << " " << i;
             }
             EXPECT_NEAR(colors[i][2], kBase, 1e-7) << name_of(isa) << " " << i;
           }
         }
         expect_same_bits(s.c.program(), s.points);
-        // Same for batches without a lit point.
+        // Batches without a lit point.
         std::vector<LightingPoint> away;
         for (std::size_t i = 16; i < s.points.size(); i += 2) away.push_back(s.points[i]);
         expect_same_bits(s.c.program(), away);
       }
 }
+
 // Vertex colours may be any number and interpolate to NaN; a black light contributes nothing.
 TEST(LightingOverflow, BlackLightOnInfiniteVertexColors) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -168,6 +178,7 @@ TEST(LightingOverflow, BlackLightOnInfiniteVertexColors) {
     }
   expect_same_bits(s.c.program(), s.points);
 }
+
 // An infinite highlight counts as a full one: the index is at most the specular index, and masked.
 TEST(LightingOverflow, IndicesUnderInfiniteHighlights) {
   for (const float brightness : {1e20f, 3e38f}) {
@@ -184,6 +195,7 @@ TEST(LightingOverflow, IndicesUnderInfiniteHighlights) {
       EXPECT_EQ(test::light(program, s.points, isa)[1][0], 200) << brightness;
   }
 }
+
 // Finite results are exact: the longest possible normal with the weakest light and material.
 TEST(LightingOverflow, LongNormalsTimesWeakColorsAreExact) {
   KnownColorCase s;
@@ -193,6 +205,7 @@ TEST(LightingOverflow, LongNormalsTimesWeakColorsAreExact) {
   for (LightingPoint& p : s.points) p.normal = {0, 0, 0.25e38f};
   s.expect(kGlow + kBase + 0.25, kBase + 0.25);
 }
+
 // Overflow yields a colour within 0..1, identical on every instruction set.
 TEST(LightingOverflow, OverflowStaysWithinRange) {
   RandomLighting random(9);

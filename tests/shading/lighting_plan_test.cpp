@@ -35,18 +35,24 @@ struct Scene {
   }
 };
 
+/// A change of the scene, and the program that it yields.
 struct Row {
   const char* name;
   std::function<void(Scene&)> change;
   int terms;
   LightKind kind = LightKind::attenuated_spot;
   HighlightKind highlight = HighlightKind::blinn_infinite;
-  bool general = true, needs_position = true, needs_view = false;
+  bool has_ambient_or_tracked = true;
+  bool needs_position = true;
+  bool needs_view = false;
 };
 
-TEST(Effects, ElideTermsWithoutInfluence) {
-  const auto directional = [](Scene& s) { s.light.directional = true, s.light.spot_cutoff = 180; };
-  const std::vector<Row> rows = {
+std::vector<Row> changed_scenes() {
+  const auto directional = [](Scene& s) {
+    s.light.directional = true;
+    s.light.spot_cutoff = 180;
+  };
+  return {
       {"everything", [](Scene&) {}, 1},
       {"cutoff 180 is no cone", [](Scene& s) { s.light.spot_cutoff = 180; }, 1, LightKind::attenuated_point},
       {"attenuation 1 0 0 is none",
@@ -71,15 +77,17 @@ TEST(Effects, ElideTermsWithoutInfluence) {
        1},
       {"neither cone nor attenuation",
        [](Scene& s) {
-         s.light.spot_cutoff = 180, s.light.attenuation = {1, 0, 0};
+         s.light.spot_cutoff = 180;
+         s.light.attenuation = {1, 0, 0};
        },
        1, LightKind::point},
       {"a point without exponent still has its cone", [](Scene& s) { s.light.spot_exponent = 0; }, 1},
       {"cutoff 90 is a cone", [](Scene& s) { s.light.spot_cutoff = 90; }, 1},
       {"directional", directional, 1, LightKind::directional, HighlightKind::blinn_infinite, false, false},
       {"directional, attenuation is unused",
-       [&](Scene& s) {
-         directional(s), s.light.attenuation = {5, 5, 5};
+       [directional](Scene& s) {
+         directional(s);
+         s.light.attenuation = {5, 5, 5};
        },
        1, LightKind::directional, HighlightKind::blinn_infinite, false, false},
       {"specular material black", [](Scene& s) { s.material.specular = kBlack; }, 1,
@@ -88,7 +96,8 @@ TEST(Effects, ElideTermsWithoutInfluence) {
        HighlightKind::none},
       {"specular product black",
        [](Scene& s) {
-         s.material.specular = {1, 0, 0}, s.light.specular = {0, 1, 1};
+         s.material.specular = {1, 0, 0};
+         s.light.specular = {0, 1, 1};
        },
        1, LightKind::attenuated_spot, HighlightKind::none},
       {"ambient material black", [](Scene& s) { s.material.ambient = kBlack; }, 1, LightKind::attenuated_spot,
@@ -97,7 +106,8 @@ TEST(Effects, ElideTermsWithoutInfluence) {
        HighlightKind::blinn_infinite, false},
       {"negative light is not black",
        [](Scene& s) {
-         s.light.ambient = s.light.specular = kBlack, s.light.diffuse = {-1, 0, 0};
+         s.light.ambient = s.light.specular = kBlack;
+         s.light.diffuse = {-1, 0, 0};
        },
        1, LightKind::attenuated_spot, HighlightKind::none, false},
       {"diffuse black, highlight alone", [](Scene& s) { s.material.diffuse = kBlack; }, 1},
@@ -107,43 +117,81 @@ TEST(Effects, ElideTermsWithoutInfluence) {
       {"black material",
        [](Scene& s) { s.material.ambient = s.material.diffuse = s.material.specular = kBlack; }, 0},
       {"directional, ambient alone",
-       [&](Scene& s) { directional(s), s.light.diffuse = s.light.specular = kBlack; }, 0},
+       [directional](Scene& s) {
+         directional(s);
+         s.light.diffuse = s.light.specular = kBlack;
+       },
+       0},
       {"directional, turned out of its cone",
-       [&](Scene& s) {
-         directional(s), s.light.position = {0, 0, 1}, s.light.spot_direction = {0, 0, 1},
-                         s.light.spot_cutoff = 60;
+       [directional](Scene& s) {
+         directional(s);
+         s.light.position = {0, 0, 1};
+         s.light.spot_direction = {0, 0, 1};
+         s.light.spot_cutoff = 60;
        },
        0},
       {"directional, in its cone",
-       [&](Scene& s) {
-         directional(s), s.light.position = {0, 0, 1}, s.light.spot_cutoff = 60;
+       [directional](Scene& s) {
+         directional(s);
+         s.light.position = {0, 0, 1};
+         s.light.spot_cutoff = 60;
        },
        1, LightKind::directional, HighlightKind::blinn_infinite, false, false},
       {"local viewer", [](Scene& s) { s.model.local_viewer = true; }, 1, LightKind::attenuated_spot,
        HighlightKind::blinn_local, true, true, true},
       {"local viewer without highlight",
-       [](Scene& s) { s.model.local_viewer = true, s.material.specular = kBlack; }, 1,
-       LightKind::attenuated_spot, HighlightKind::none},
+       [](Scene& s) {
+         s.model.local_viewer = true;
+         s.material.specular = kBlack;
+       },
+       1, LightKind::attenuated_spot, HighlightKind::none},
       {"directional, local viewer without highlight",
-       [&](Scene& s) { directional(s), s.model.local_viewer = true, s.material.specular = kBlack; }, 1,
-       LightKind::directional, HighlightKind::none, false, false},
-      {"directional, local viewer", [&](Scene& s) { directional(s), s.model.local_viewer = true; }, 1,
-       LightKind::directional, HighlightKind::blinn_local, false, true, true},
+       [directional](Scene& s) {
+         directional(s);
+         s.model.local_viewer = true;
+         s.material.specular = kBlack;
+       },
+       1, LightKind::directional, HighlightKind::none, false, false},
+      {"directional, local viewer",
+       [directional](Scene& s) {
+         directional(s);
+         s.model.local_viewer = true;
+       },
+       1, LightKind::directional, HighlightKind::blinn_local, false, true, true},
       {"Phong highlight", [](Scene& s) { s.model.phong_highlight = true; }, 1, LightKind::attenuated_spot,
        HighlightKind::phong_infinite},
       {"Phong highlight, local viewer",
        [](Scene& s) { s.model.phong_highlight = s.model.local_viewer = true; }, 1, LightKind::attenuated_spot,
        HighlightKind::phong_local, true, true, true},
-      {"vertex colours as diffuse", [](Scene& s) { s.tracked.diffuse = true, s.light.ambient = kBlack; }, 1},
+      {"vertex colours as diffuse",
+       [](Scene& s) {
+         s.tracked.diffuse = true;
+         s.light.ambient = kBlack;
+       },
+       1},
       {"vertex colours as diffuse of a light without",
-       [](Scene& s) { s.tracked.diffuse = true, s.light.ambient = s.light.diffuse = kBlack; }, 1,
-       LightKind::attenuated_spot, HighlightKind::blinn_infinite, false},
-      {"vertex colours as emission", [](Scene& s) { s.tracked.emission = true, s.light.ambient = kBlack; }, 1,
-       LightKind::attenuated_spot, HighlightKind::blinn_infinite, false},
+       [](Scene& s) {
+         s.tracked.diffuse = true;
+         s.light.ambient = s.light.diffuse = kBlack;
+       },
+       1, LightKind::attenuated_spot, HighlightKind::blinn_infinite, false},
+      {"vertex colours as emission",
+       [](Scene& s) {
+         s.tracked.emission = true;
+         s.light.ambient = kBlack;
+       },
+       1, LightKind::attenuated_spot, HighlightKind::blinn_infinite, false},
       {"vertex colours as specular, material black",
-       [](Scene& s) { s.tracked.specular = true, s.material.specular = kBlack; }, 1},
+       [](Scene& s) {
+         s.tracked.specular = true;
+         s.material.specular = kBlack;
+       },
+       1},
   };
-  for (const Row& row : rows) {
+}
+
+TEST(Effects, ElideTermsWithoutInfluence) {
+  for (const Row& row : changed_scenes()) {
     Scene scene;
     row.change(scene);
     std::vector<EffectNote> notes;
@@ -157,10 +205,10 @@ TEST(Effects, ElideTermsWithoutInfluence) {
     }
     EXPECT_EQ(program.terms[0].kind, row.kind);
     EXPECT_EQ(program.terms[0].highlight, row.highlight);
-    const bool general = std::any_of(notes.begin(), notes.end(), [](const EffectNote& note) {
+    const bool has_ambient_or_tracked = std::any_of(notes.begin(), notes.end(), [](const EffectNote& note) {
       return note.effect == Effect::light_ambient || note.effect == Effect::light_tracked_colors;
     });
-    EXPECT_EQ(general, row.general);
+    EXPECT_EQ(has_ambient_or_tracked, row.has_ambient_or_tracked);
     EXPECT_TRUE(program.needs_normal);
     EXPECT_EQ(program.needs_position, row.needs_position);
     EXPECT_EQ(program.needs_view, row.needs_view);
@@ -185,17 +233,19 @@ TEST(Effects, FoldConstants) {
     EXPECT_NEAR(s.plan().terms[0].diffuse[k], 0.64 * s.light.diffuse[k] * s.material.diffuse[k], 1e-6);
 }
 
-// Must not depend on how directions round to float.
+// The result must not depend on how directions round to float.
 TEST(Effects, DirectionalLightsShineInVeryNarrowCones) {
   std::mt19937 random(61);
   std::uniform_real_distribution<double> any(-1, 1);
   Scene s;
   s.light.directional = true;
   for (int n = 0; n < 300; ++n) {
-    const double to[3] = {any(random), any(random), any(random)}, length = std::hypot(to[0], to[1], to[2]);
-    const double aside[3] = {to[1], -to[0], 0}, aside_length = std::hypot(aside[0], aside[1]);
-    for (const double degrees :
-         {0.0, 1e-4, 0.0099, 0.0101, 0.02}) {  // angle between the light's direction and its cone's axis
+    const double to[3] = {any(random), any(random), any(random)};
+    const double length = std::hypot(to[0], to[1], to[2]);
+    const double aside[3] = {to[1], -to[0], 0};
+    const double aside_length = std::hypot(aside[0], aside[1]);
+    // Angle between the light's direction and its cone's axis.
+    for (const double degrees : {0.0, 1e-4, 0.0099, 0.0101, 0.02}) {
       const double angle = degrees * 3.141592653589793 / 180;
       for (std::size_t k = 0; k < 3; ++k) {
         s.light.position[k] = static_cast<float>(to[k] / length);
@@ -204,7 +254,7 @@ TEST(Effects, DirectionalLightsShineInVeryNarrowCones) {
       }
       s.light.spot_cutoff = 0.01f;
       EXPECT_EQ(s.plan().terms.size(), degrees < 0.01 ? 1u : 0u) << n << " " << degrees;
-      // Rounded differently.
+      // The same direction, rounded differently.
       for (float& component : s.light.position)
         component = std::nextafter(component, n % 2 == 0 ? 2.0f : 0.0f);
       s.light.spot_cutoff = 0;
@@ -225,11 +275,13 @@ TEST(Effects, DirectionalLightsShineAtTheEdgesOfTheirCones) {
           static_cast<float>(sign * z / length)};
   };
   for (int n = 0; n < 5 * 5 * 5 * 5; ++n) {
-    const int x = n % 5 + 1, y = n / 5 % 5, u = n / 25 % 5 + 1, v = n / 125 % 5;
-    const int dot = x * u + y * v, squares = (x * x + y * y) * (u * u + v * v);
+    const int x = n % 5 + 1, y = n / 5 % 5;
+    const int u = n / 25 % 5 + 1, v = n / 125 % 5;
+    const int dot = x * u + y * v;
+    const int squares = (x * x + y * y) * (u * u + v * v);
     set_unit(s.light.position, x, y, 0, 1);
     set_unit(s.light.spot_direction, u, v, 0, -1);
-    if (dot * dot * 2 != squares) continue;  // 45 degrees
+    if (dot * dot * 2 != squares) continue;  // the angle is not 45 degrees
     ++edges;
     s.light.spot_cutoff = 45;
     EXPECT_EQ(s.plan().terms.size(), 1u) << x << " " << y << ", " << u << " " << v;

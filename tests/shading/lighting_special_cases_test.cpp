@@ -15,6 +15,7 @@ TEST(LightingSpecialCase, HeadOnShowsEveryTerm) {
   KnownColorCase().expect(kGlow + kBase + kAmbient + kDiffuse + kSpecular,
                           kBase + kAmbient + kDiffuse + kSpecular);
 }
+
 TEST(LightingSpecialCase, AttenuationWithoutAPositiveDenominatorIsOneMillion) {
   for (const std::array<float, 3>& coefficients :
        {std::array<float, 3>{0, 0, 0}, {1, -1, 0}, {1, 0, -1}, {2, -1, 0}}) {
@@ -25,6 +26,7 @@ TEST(LightingSpecialCase, AttenuationWithoutAPositiveDenominatorIsOneMillion) {
     s.expect(kGlow + kBase + 0.2, kBase + 0.2);
   }
 }
+
 TEST(LightingSpecialCase, LightAtThePointAddsItsAmbientPartOnly) {
   KnownColorCase s;
   s.light().position = {0, 0, -2};
@@ -34,6 +36,7 @@ TEST(LightingSpecialCase, LightAtThePointAddsItsAmbientPartOnly) {
   s.light().spot_cutoff = 90;  // V.D <= 0
   s.expect(kGlow + kBase, kBase);
 }
+
 TEST(LightingSpecialCase, ZeroNormalsReceiveTheAmbientPartOnly) {
   KnownColorCase s;
   for (LightingPoint& p : s.points) p.normal = {0, 0, 0};
@@ -43,6 +46,7 @@ TEST(LightingSpecialCase, ZeroNormalsReceiveTheAmbientPartOnly) {
   s.c.material.shininess = 0;
   s.expect(kGlow + kBase + kAmbient, kBase + kAmbient);
 }
+
 TEST(LightingSpecialCase, BackFacingSurfacesHaveNoHighlight) {
   for (const float shininess : {0.0f, 1.0f, 10.0f}) {
     for (const bool phong : {false, true}) {
@@ -56,6 +60,7 @@ TEST(LightingSpecialCase, BackFacingSurfacesHaveNoHighlight) {
     }
   }
 }
+
 TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightWhereTheLightFalls) {
   KnownColorCase s;
   s.c.material.shininess = 0;
@@ -63,6 +68,7 @@ TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightWhereTheLightFalls) {
   s.expect(kGlow + kBase + kAmbient + 0.6 * kDiffuse + kSpecular,
            kBase + kAmbient + 0.6 * kDiffuse + kSpecular);
 }
+
 TEST(LightingSpecialCase, ViewerOnTheOtherSideHasNoHalfwayVector) {
   KnownColorCase s;
   s.light().position = {0, 0, -4};  // L = (0, 0, -1), E = (0, 0, 1)
@@ -73,6 +79,7 @@ TEST(LightingSpecialCase, ViewerOnTheOtherSideHasNoHalfwayVector) {
     EXPECT_NEAR(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse + kSpecular,
                 2e-6);
 }
+
 TEST(LightingSpecialCase, ConesOf0And90And180Degrees) {
   KnownColorCase s;
   s.light().spot_direction = {0, 0, -1};
@@ -99,6 +106,7 @@ TEST(LightingSpecialCase, ConesOf0And90And180Degrees) {
   for (const InstructionSet isa : available_isas())
     EXPECT_GT(test::light(s.c.program(), s.points, isa)[0][1], kBase + kAmbient + kDiffuse - 2e-6);
 }
+
 TEST(LightingSpecialCase, NegativeLightsDarkenAndTheSumIsClampedOnce) {
   KnownColorCase s;
   s.c.lights.push_back(s.light());
@@ -112,6 +120,7 @@ TEST(LightingSpecialCase, NegativeLightsDarkenAndTheSumIsClampedOnce) {
   s.c.lights[1].diffuse = {-30, -30, -30};
   s.expect(0, 0);
 }
+
 // x^0 is 1 for every x, even if R.E is infinite.
 TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightForAnyBase) {
   for (const float size : {1.0f, 1e20f, 3e38f}) {
@@ -127,6 +136,7 @@ TEST(LightingSpecialCase, ShininessZeroIsAConstantHighlightForAnyBase) {
     expect_same_bits(s.c.program(), s.points);
   }
 }
+
 // Small exponents, down to the tenth root, yield visible highlights for tiny cosines.
 TEST(LightingSpecialCase, SmallExponentsKeepTinyCosines) {
   KnownColorCase s;

@@ -57,13 +57,16 @@ TEST(LightingKernels, OneLightMatchesTheScalarTwin) {
       }
     }
   }
-  // All highlights may be sharp. Squared ones exist only for Blinn with S varying per point; ambient parts of
-  // directional lights are in no term.
-  const int highlights = 2 * kHighlightKinds - 1, directional = highlights + 1, positional = highlights + 2;
+  // All highlights may be sharp. Squared ones exist only for Blinn with S varying per point: one kind of
+  // highlight for directional lights, two for others. Ambient parts of directional lights are in no term.
+  const int highlights = 2 * kHighlightKinds - 1;
+  const int directional = highlights + 1;
+  const int positional = highlights + 2;
   EXPECT_EQ(combinations.size(),
             static_cast<std::size_t>(directional * 2 + (kLightKinds - 1) * positional * 4))
       << "some kernels never ran";
 }
+
 TEST(LightingKernels, ManyLightsMatchTheScalarTwin) {
   RandomLighting random(2);
   for (int round = 0; round < rounds(2000); ++round) {
@@ -73,6 +76,7 @@ TEST(LightingKernels, ManyLightsMatchTheScalarTwin) {
     if (HasFatalFailure()) return;
   }
 }
+
 // On both sides of the edge of cones wider and narrower than kNarrowCone.
 TEST(LightingKernels, NarrowConesMatchTheScalarTwin) {
   RandomLighting random(7);
@@ -84,13 +88,15 @@ TEST(LightingKernels, NarrowConesMatchTheScalarTwin) {
     constexpr float kCutoffs[] = {0, 1e-4f, 0.01f, 0.3f, 0.99f, 1, 1.5f};
     l.spot_cutoff = kCutoffs[static_cast<std::size_t>(round % 7)];
     l.spot_direction = random.direction();
-    l.ambient = {0.5f, 0.5f, 0.5f}, c.material.ambient = {1, 1, 1}, c.tracked = {};
+    l.ambient = {0.5f, 0.5f, 0.5f};
+    c.material.ambient = {1, 1, 1};
+    c.tracked = {};
     std::vector<LightingPoint> points(kBatchPoints);
     for (LightingPoint& p : points) {
       p = random.point();
       const std::array<float, 3> aside = random.direction();
-      const float reach = random.in(0, 2.5) * std::max(l.spot_cutoff, 1e-6f) * 0.017453f,
-                  distance = random.in(0.1, 50);
+      const float reach = random.in(0, 2.5) * std::max(l.spot_cutoff, 1e-6f) * 0.017453f;
+      const float distance = random.in(0.1, 50);
       for (std::size_t k = 0; k < 3; ++k)
         p.position[k] = l.position[k] + distance * (l.spot_direction[k] + reach * aside[k]);
     }
@@ -108,7 +114,7 @@ TEST(LightingKernels, NarrowConesMatchTheScalarTwin) {
 // Indices: negative, wrapping, with and without highlights; programs of no, one and many lights.
 TEST(LightingKernels, IndicesMatchTheScalarTwin) {
   RandomLighting random(5);
-  int wrapped = 0, most = 0, between = 0;
+  int wrapped = 0, full = 0, between = 0;
   for (int round = 0; round < rounds(2000); ++round) {
     const LightingCase c = random.next();
     IndexMaterial material{{random.in(-100, 100), random.in(-100, 100), random.in(-100, 100)},
@@ -131,16 +137,17 @@ TEST(LightingKernels, IndicesMatchTheScalarTwin) {
             << name_of(isa) << " point " << i << ": " << colors[i][0] << " for " << expected;
         ASSERT_TRUE(expected >= 0 && expected <= material.modulus);
         wrapped += material.indexes[2] < 0;
-        most += expected == material.indexes[2];
+        full += expected == material.indexes[2];
         between += expected > material.indexes[0] && expected < material.indexes[2];
       }
     }
   }
-  EXPECT_TRUE(wrapped > 1000 && most > 1000 && between > 1000) << wrapped << " " << most << " " << between;
+  EXPECT_TRUE(wrapped > 1000 && full > 1000 && between > 1000) << wrapped << " " << full << " " << between;
 }
-// Sums of every kernel against the formula in double for a grey material, through the final index step. Sharp
-// highlights may be off by 16 u per unit of the exponent (tests/numerics/README.md), times the derivative of
-// the index by s.
+
+// Indices of every kernel against those of the formula in double, whose red and green are the sums d and s.
+// Sharp highlights may be off by 16 u per unit of the exponent (tests/numerics/README.md), times the
+// derivative of the index by s.
 TEST(LightingKernels, IndicesMatchTheFormula) {
   RandomLighting random(6);
   std::size_t compared = 0;
@@ -169,10 +176,11 @@ TEST(LightingKernels, IndicesMatchTheFormula) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       bool smooth = true;
       const std::array<double, 3> sums = lighting_formula(c, points[i], smooth);
-      if (!smooth || sums[0] <= 0 || sums[0] >= 1 || sums[1] <= 0 || sums[1] >= 1) continue;
+      const bool is_clamped = sums[0] <= 0 || sums[0] >= 1 || sums[1] <= 0 || sums[1] >= 1;
+      if (!smooth || is_clamped) continue;
       const double d = 4 * (sums[0] - 0.5), s = 4 * (sums[1] - 0.5);
-      const double index = std::min(3 + d * (1 - s) * 37 + s * 87, 90.0),
-                   expected = index - 256 * std::floor(index / 256);
+      const double index = std::min(3 + d * (1 - s) * 37 + s * 87, 90.0);
+      const double expected = index - 256 * std::floor(index / 256);
       if (std::abs(index) < 0.01) continue;  // either end of the range
       const double highlights_off =
           16 * 0x1p-24 * c.material.shininess * 4 * (lighting_formula(sizes, points[i], smooth)[1] - 0.5);
@@ -213,7 +221,9 @@ TEST(LightingKernels, SharpHighlightsAreWithinAFewRoundingsOfTheFormula) {
       LightingCase c;
       c.material.specular = {1, 1, 1};
       c.material.shininess = shininess;
-      const bool local = round % 2 != 0, phong = round % 4 > 1, point = round % 8 > 3;
+      const bool local = round % 2 != 0;
+      const bool phong = round % 4 > 1;
+      const bool point = round % 8 > 3;
       c.model.local_viewer = local;
       c.model.phong_highlight = phong;
       c.renormalize = c.model.unit_normals = true;
@@ -235,7 +245,8 @@ TEST(LightingKernels, SharpHighlightsAreWithinAFewRoundingsOfTheFormula) {
           e = {-p.position[0] / std::sqrt(pp), -p.position[1] / std::sqrt(pp),
                -p.position[2] / std::sqrt(pp)};
         // A viewer nearly opposite to the light would amplify the roundings of both in L + E.
-        const bool opposite = l[0] * e[0] + l[1] * e[1] + l[2] * e[2] < -0.8 * std::sqrt(ll);
+        const double l_dot_e = l[0] * e[0] + l[1] * e[1] + l[2] * e[2];
+        const bool opposite = l_dot_e < -0.8 * std::sqrt(ll);
         for (std::size_t k = 0; k < 3; ++k) {
           p.normal[k] = opposite ? 0.0f
                                  : static_cast<float>(l[k] / std::sqrt(ll) + e[k] +

@@ -1,5 +1,5 @@
-// Depth keys along lines against integers: where all products are exact, a key is the integer part of its
-// depth; and keys of points against those of lines.
+// Depth keys along lines against integer arithmetic, in cases where all products are exact: a key is the
+// integer part of its depth. Depth keys of points against those of lines.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -15,21 +15,22 @@
 namespace tessera::test {
 namespace {
 
-struct Cases {
-  int parameter_bits;      // parameters are multiples of 2^-bits
-  std::uint32_t farthest;  // upper bound of the depth values
+struct ExactCase {
+  int parameter_bits;       // parameters are multiples of 2^-parameter_bits
+  std::uint32_t max_depth;  // upper bound of the depth words
 };
-constexpr Cases kCases[] = {{28, 1u << 20}, {28, 4}, {18, 0xffffffffu}};
+constexpr ExactCase kCases[] = {{28, 1u << 20}, {28, 4}, {18, 0xffffffffu}};
 
 TEST(LineDepth, IsTheIntegerPart) {
   std::mt19937 random(3);
   for (const DepthFormat kind : {DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::unorm32})
-    for (const Cases& of : kCases)
+    for (const auto& [parameter_bits, max_depth] : kCases)
       for (int round = 0; round < 2000; ++round) {
-        const std::uint32_t z0 = random() % of.farthest, z1 = random() % of.farthest;
+        const std::uint32_t z0 = random() % max_depth, z1 = random() % max_depth;
         std::vector<double> parameters;
         std::vector<std::int32_t> expected;
-        const std::int64_t one = std::int64_t{1} << of.parameter_bits, change = std::int64_t{z1} - z0;
+        const std::int64_t one = std::int64_t{1} << parameter_bits;
+        const std::int64_t change = std::int64_t{z1} - z0;
         for (int i = 0; i < 16; ++i) {
           // Half of the parameters are adjacent to a step between 32-bit levels.
           const std::int64_t level_at =
@@ -39,13 +40,14 @@ TEST(LineDepth, IsTheIntegerPart) {
           const std::int64_t n = std::min(
               one, i % 2 == 0 ? level_at + i % 4 / 2 : static_cast<std::int64_t>(random()) % (one + 1));
           parameters.push_back(static_cast<double>(n) / static_cast<double>(one));
-          const std::int64_t depth = (std::int64_t{z0} << of.parameter_bits) + n * change;
-          if (kind == DepthFormat::unorm32)
-            expected.push_back(static_cast<std::int32_t>(((depth + one / 2) >> of.parameter_bits) -
-                                                         (std::int64_t{1} << 31)));
-          else
-            expected.push_back(static_cast<std::int32_t>(
-                depth >> (of.parameter_bits + (kind == DepthFormat::unorm24 ? 8 : 16))));
+          const std::int64_t depth = (std::int64_t{z0} << parameter_bits) + n * change;
+          if (kind == DepthFormat::unorm32) {
+            const std::int64_t rounded = (depth + one / 2) >> parameter_bits;
+            expected.push_back(static_cast<std::int32_t>(rounded - (std::int64_t{1} << 31)));
+          } else {
+            const int dropped_bits = kind == DepthFormat::unorm24 ? 8 : 16;
+            expected.push_back(static_cast<std::int32_t>(depth >> (parameter_bits + dropped_bits)));
+          }
         }
         for (const InstructionSet isa : available_isas())
           ASSERT_EQ(line_keys(isa)(kind, z0, z1, parameters), expected)

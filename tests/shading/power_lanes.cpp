@@ -10,6 +10,14 @@ HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
+HWY_INLINE Float evaluate_one(test::PowerFunction function, Float x, float exponent) {
+  switch (function) {
+    case test::PowerFunction::power: return power_lanes(x, exponent);
+    case test::PowerFunction::log2: return log2_lanes(x);
+    default: return exp2_lanes(x);
+  }
+}
+
 void evaluate_power_lanes(test::PowerFunction function, const float* arguments, float exponent,
                           float* results, std::size_t count) {
   if (function == test::PowerFunction::chosen)
@@ -22,10 +30,7 @@ void evaluate_power_lanes(test::PowerFunction function, const float* arguments, 
     });
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Float x = hn::LoadU(kFloat, arguments + i);
-    const Float y = function == test::PowerFunction::power  ? power_lanes(x, exponent)
-                    : function == test::PowerFunction::log2 ? log2_lanes(x)
-                                                            : exp2_lanes(x);
-    hn::StoreU(y, kFloat, results + i);
+    hn::StoreU(evaluate_one(function, x, exponent), kFloat, results + i);
   }
 }
 

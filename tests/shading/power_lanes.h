@@ -1,5 +1,4 @@
-// Kernels of the power functions, which are only visible to multi-target translation units, as plain
-// functions over arrays.
+// Kernels of the power functions as plain functions over arrays.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +9,9 @@ namespace tessera::test {
 using namespace detail;
 
 enum class PowerFunction { power, log2, exp2, chosen };
-/// Evaluates `count` arguments, a multiple of 16. The exponent matters to powers only; `chosen` is the method
-/// that lighting uses.
+/// Evaluates a function at `count` arguments, a multiple of 16.
+/// @param function  `chosen` is x^exponent by the method that lighting uses
+/// @param exponent  unused by log2 and exp2
 using EvaluatePower = void(PowerFunction function, const float* arguments, float exponent, float* results,
                            std::size_t count);
 EvaluatePower* evaluate_power(InstructionSet isa);

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <iterator>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -41,9 +41,9 @@ TEST(SampleResolve, IsTheMeanOfTheLevels) {
           const std::uint32_t mask = layout.value_mask() | layout.alpha_mask();
           for (int y = 0; y < kTile; ++y)
             for (int x = 0; x < kTile; ++x) {
-              std::uint32_t words[kMaxSamples];
-              for (int s = 0; s < samples; ++s) words[s] = stage.sample_color(s, x, y);
-              ASSERT_EQ(stage.color(x, y) & mask, resolve_reference(layout, words, samples))
+              std::uint32_t packed[kMaxSamples];
+              for (int s = 0; s < samples; ++s) packed[s] = stage.sample_color(s, x, y);
+              ASSERT_EQ(stage.color(x, y) & mask, resolve_reference(layout, packed, samples))
                   << name_of(isa) << ", " << bits << " bits, " << alpha << " of alpha";
             }
         }
@@ -52,26 +52,40 @@ TEST(SampleResolve, IsTheMeanOfTheLevels) {
 
 // The scalar twin against results by hand: halves round up, and components do not carry into each other.
 TEST(SampleResolve, MeanRoundsHalvesUp) {
-  const std::uint32_t words[8] = {0xff0000, 0xff0001, 0xff0101, 0xff01ff, 0, 0, 0, 0};
-  EXPECT_EQ(resolve_reference(rgb_layout(24), words, 4),
-            0xff0140u);  // green 2/4 -> 1, blue (1 + 1 + 255)/4 = 64.25
-  EXPECT_EQ(resolve_reference(rgb_layout(24), words, 8), 0x800020u);  // red 127.5, green 0.25, blue 32.125
+  const std::uint32_t packed[8] = {0xff0000, 0xff0001, 0xff0101, 0xff01ff, 0, 0, 0, 0};
+  // Green 2/4 becomes 1, blue is (1 + 1 + 255)/4 = 64.25.
+  EXPECT_EQ(resolve_reference(rgb_layout(24), packed, 4), 0xff0140u);
+  // Red is 127.5, green 0.25, blue 32.125.
+  EXPECT_EQ(resolve_reference(rgb_layout(24), packed, 8), 0x800020u);
   const std::uint32_t greys[4] = {0, 1, 1, 0};
   EXPECT_EQ(resolve_reference(rgb_layout(1), greys, 4), 1u);
 }
 
-// Shading modes of draws with interpolated colours within a tile.
-enum class Way { later, later_one_by_one, at_once, mixed, with_operations };
-constexpr Way kWays[] = {Way::later, Way::later_one_by_one, Way::at_once, Way::mixed, Way::with_operations};
-constexpr const char* kWayNames[] = {"later", "later, one by one", "at once",
-                                     "at once between others that wait", "with operations"};
+// Shading modes of draws with interpolated colours. `mixed`: only the second draw is immediate.
+enum class ShadingMode { deferred, deferred_by_group, immediate, mixed, with_operations };
+constexpr ShadingMode kModes[] = {ShadingMode::deferred, ShadingMode::deferred_by_group,
+                                  ShadingMode::immediate, ShadingMode::mixed, ShadingMode::with_operations};
+constexpr const char* kModeNames[] = {"deferred", "deferred, group by group", "immediate",
+                                      "immediate between deferred draws", "with operations"};
 
-constexpr std::uint32_t kTriangles = 51, kDraws = 3;
-
-// Three draws of random intersecting triangles under perspective, with front and back colours.
 constexpr std::int32_t kFarthest = std::numeric_limits<std::int32_t>::max();
-float unit_depth(std::uint32_t random) { return static_cast<float>(random >> 8) * 0x1p-24f; }
+constexpr std::uint32_t kTriangles = 51;
+constexpr std::uint32_t kDraws = 3;
 
+std::uint32_t depth_word(DepthFormat format, std::uint32_t random) {
+  if (format == DepthFormat::float32)
+    return std::bit_cast<std::uint32_t>(static_cast<float>(random >> 8) * 0x1p-24f);
+  if (format == DepthFormat::unorm32) return random;
+  return (random & 0xffff0000u) | 0x8000u;
+}
+
+Shape shape_of(std::uint32_t triangle, bool wide) {
+  if (wide) return Shape::edges64;
+  if (triangle % 3 == 0) return Shape::large;
+  return triangle % 3 == 1 ? Shape::medium : Shape::tiny;
+}
+
+/// Three draws of random intersecting triangles under perspective, with front and back colours.
 struct InterpolatedDraws {
   std::vector<WindowVertex> vertices;
   std::vector<float> colors;
@@ -83,16 +97,10 @@ struct InterpolatedDraws {
   InterpolatedDraws(RandomTriangles& source, int round, DepthFormat depth_format) {
     for (std::uint32_t i = 0; i < kTriangles; ++i) {
       const bool wide = round % 3 == 2 && i % 13 == 0;
-      const Triangle triangle = source.next(wide         ? Shape::edges64
-                                            : i % 3 == 0 ? Shape::large
-                                            : i % 3 == 1 ? Shape::medium
-                                                         : Shape::tiny);
+      const Triangle triangle = source.next(shape_of(i, wide));
       if (reference_of(triangle).area != 0) visible.push_back(i);
       for (WindowVertex v : triangle) {
-        const auto depth = static_cast<std::uint32_t>(source.random()());
-        v.z = depth_format == DepthFormat::float32   ? std::bit_cast<std::uint32_t>(unit_depth(depth))
-              : depth_format == DepthFormat::unorm32 ? depth
-                                                     : (depth & 0xffff0000u) | 0x8000u;
+        v.z = depth_word(depth_format, static_cast<std::uint32_t>(source.random()()));
         v.rw = 0.5f + static_cast<float>(source.unit());
         vertices.push_back(v);
         for (int c = 0; c < 8; ++c) colors.push_back(static_cast<float>(source.unit()));
@@ -106,7 +114,7 @@ struct InterpolatedDraws {
               source.between(20, kTile)};
   }
 
-  void add_to(TileHarness& stage, Way way, const FragmentOps& operations) const {
+  void add_to(TileHarness& stage, ShadingMode mode, const FragmentOps& operations) const {
     stage.clear_draws();
     for (std::uint32_t d = 0; d < kDraws; ++d) {
       TileDraw& draw = stage.add_draw(vertices.data());
@@ -118,10 +126,11 @@ struct InterpolatedDraws {
       draw.attributes = colors.data();
       draw.attribute_stride = draw.attribute_count = 8;
       draw.color_attribute[1] = 4;
-      draw.deferred = way == Way::later || way == Way::later_one_by_one || (way == Way::mixed && d != 1);
-      draw.ops = way == Way::with_operations ? &operations : nullptr;
+      draw.deferred = mode == ShadingMode::deferred || mode == ShadingMode::deferred_by_group ||
+                      (mode == ShadingMode::mixed && d != 1);
+      draw.ops = mode == ShadingMode::with_operations ? &operations : nullptr;
     }
-    stage.frame().shade_immediately = way == Way::later_one_by_one;
+    stage.frame().shade_immediately = mode == ShadingMode::deferred_by_group;
     for (const std::uint32_t id : visible) stage.push(0, id / (kTriangles / kDraws), id);
   }
 };
@@ -138,21 +147,21 @@ TEST_P(SampledColors, DoNotDependOnWhenTheyAreShaded) {
       const InterpolatedDraws draws(source, round, GetParam());
       std::vector<std::uint32_t> first;
       for (const InstructionSet isa : available_isas()) {
-        std::uint64_t shaded[std::size(kWays)];
-        for (const Way way : kWays) {
-          draws.add_to(stage, way, operations);
-          shaded[static_cast<int>(way)] = stage.render(isa, 0, 0x102030, kFarthest).shaded_pixels;
-          std::vector<std::uint32_t> seen;
+        std::map<ShadingMode, std::uint64_t> shaded;
+        for (const ShadingMode mode : kModes) {
+          draws.add_to(stage, mode, operations);
+          shaded[mode] = stage.render(isa, 0, 0x102030, kFarthest).shaded_pixels;
+          std::vector<std::uint32_t> colors;
           for (int s = 0; s < samples; ++s)
             for (int y = 0; y < kTile; ++y)
-              for (int x = 0; x < kTile; ++x) seen.push_back(stage.sample_color(s, x, y));
-          if (first.empty()) first = seen;
-          ASSERT_EQ(seen, first) << name_of(isa) << ", round " << round << ": "
-                                 << kWayNames[static_cast<int>(way)];
+              for (int x = 0; x < kTile; ++x) colors.push_back(stage.sample_color(s, x, y));
+          if (first.empty()) first = colors;
+          ASSERT_EQ(colors, first) << name_of(isa) << ", round " << round << ": "
+                                   << kModeNames[static_cast<int>(mode)];
         }
-        ASSERT_EQ(shaded[static_cast<int>(Way::at_once)], shaded[static_cast<int>(Way::with_operations)])
+        ASSERT_EQ(shaded[ShadingMode::immediate], shaded[ShadingMode::with_operations])
             << name_of(isa) << ", round " << round;
-        ASSERT_LE(shaded[static_cast<int>(Way::later)], shaded[static_cast<int>(Way::at_once)])
+        ASSERT_LE(shaded[ShadingMode::deferred], shaded[ShadingMode::immediate])
             << name_of(isa) << ", round " << round;
       }
     }

@@ -38,7 +38,8 @@ Expected expected_at(const Triangle& triangle, const TriangleReference& exact, c
       of_t[i] += weight * t[k];
     }
   }
-  const double at_s = of_s[0] / sum[0], at_t = of_t[0] / sum[0];
+  const double at_s = of_s[0] / sum[0];
+  const double at_t = of_t[0] / sum[0];
   const auto length = [&](std::size_t i) {
     return std::hypot(width * (of_s[i] - at_s * sum[i]) / sum[0],
                       height * (of_t[i] - at_t * sum[i]) / sum[0]);
@@ -46,6 +47,7 @@ Expected expected_at(const Triangle& triangle, const TriangleReference& exact, c
   return {at_s, at_t, std::log2(std::max(length(1), length(2)))};
 }
 
+/// Attributes of a vertex.
 struct Corner {
   float at[kAttributePadding] = {};
 };
@@ -83,14 +85,18 @@ TEST(TextureCoordinates, LevelsOfDetailAreWithinOneSixteenthOfEquation3_14) {
         const TriangleReference exact(vertices);
         if (exact.area == 0) return;
         const float* const attributes[3] = {corners[0].at, corners[1].at, corners[2].at};
-        const double s[3] = {corners[0].at[2], corners[1].at[2], corners[2].at[2]},
-                     t[3] = {corners[0].at[3], corners[1].at[3], corners[2].at[3]};
+        const double s[3] = {corners[0].at[2], corners[1].at[2], corners[2].at[2]};
+        const double t[3] = {corners[0].at[3], corners[1].at[3], corners[2].at[3]};
         std::vector<float> first[3];
         for (const InstructionSet isa : available_isas()) {
           std::vector<float> at_s(kTile * kTile), at_t(kTile * kTile), squared(kTile * kTile);
           const bool touched = tile_coordinates(isa)(vertices, attributes, texture, kTile, at_s.data(),
                                                      at_t.data(), squared.data());
-          if (first[0].empty()) first[0] = at_s, first[1] = at_t, first[2] = squared;
+          if (first[0].empty()) {
+            first[0] = at_s;
+            first[1] = at_t;
+            first[2] = squared;
+          }
           exact.for_each_covered(0, 0, kTile, kTile, [&](int x, int y) {
             ASSERT_TRUE(touched) << Describe{triangle};
             const auto i = static_cast<std::size_t>(y * kTile + x);
@@ -126,7 +132,8 @@ TEST(TextureCoordinates, ConstantCoordinatesHaveNoSlope) {
     const DrawTexture texture{.levels = &levels, .attribute = 0};
     const WindowVertex vertices[3] = {triangle[0], triangle[1], triangle[2]};
     Corner same;
-    same.at[0] = 0.3f, same.at[1] = -7.7f;
+    same.at[0] = 0.3f;
+    same.at[1] = -7.7f;
     const float* const attributes[3] = {same.at, same.at, same.at};
     for (const InstructionSet isa : available_isas()) {
       std::vector<float> s(kTile * kTile, 0.3f), t(kTile * kTile, -7.7f), squared(kTile * kTile);

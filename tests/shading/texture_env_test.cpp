@@ -1,5 +1,5 @@
-// Texture environments against OpenGL 1.5's table in double, with and without alpha; bit-identical to their
-// twin on every instruction set.
+// Texture environments, with and without alpha, against the tables of OpenGL 1.5 in double; bit-identical to
+// the twin on every instruction set.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -42,8 +42,10 @@ TEST(TextureEnv, MatchesTheTableAndTheScalarTwin) {
             .function = function, .has_alpha = has_alpha, .constant = {unit(), unit(), unit()}};
         float colors[4][16], texels[4][16];
         for (int c = 0; c < 4; ++c)
-          for (int i = 0; i < 16; ++i)
-            colors[c][i] = unit(), texels[c][i] = c == 3 && !has_alpha ? 1.0f : unit();
+          for (int i = 0; i < 16; ++i) {
+            colors[c][i] = unit();
+            texels[c][i] = c == 3 && !has_alpha ? 1.0f : unit();
+          }
         for (const InstructionSet isa : available_isas()) {
           float out[4][16];
           std::copy(&colors[0][0], &colors[0][0] + 64, &out[0][0]);

@@ -17,22 +17,24 @@ void sample_lanes(const TextureLevels& texture, ShadingBatch& batch, int count) 
   sample_texture_lanes(texture, batch, count);
 }
 
-void component_lanes(const std::uint16_t (&components)[16], float (&units)[16], std::uint32_t (&words)[16]) {
+void component_lanes(const std::uint16_t (&components)[16], float (&units)[16], std::uint32_t (&packed)[16]) {
   for (int i = 0; i < 16; i += kLanes) {
-    alignas(64) std::int32_t component[kLanes], word[kLanes];
-    for (int l = 0; l < kLanes; ++l) component[l] = components[i + l];
-    const Int one = hn::Load(kInt, component), two = twice(one);
-    hn::StoreU(unit_component(one), kFloat, units + i);
-    hn::Store(pack_texels({two, two}), kInt, word);
-    for (int l = 0; l < kLanes; ++l) words[i + l] = static_cast<std::uint32_t>(word[l]);
+    alignas(64) std::int32_t lanes[kLanes];
+    for (int l = 0; l < kLanes; ++l) lanes[l] = components[i + l];
+    const Int component = hn::Load(kInt, lanes);
+    hn::StoreU(unit_component(component), kFloat, units + i);
+    hn::Store(pack_texels({twice(component), twice(component)}), kInt, lanes);
+    for (int l = 0; l < kLanes; ++l) packed[i + l] = static_cast<std::uint32_t>(lanes[l]);
   }
 }
 
 void color_lanes(const DrawTexture& texture, float (&colors)[4][16], const float (&texels)[4][16]) {
   for (int i = 0; i < 16; i += kLanes) {
     Colors color, texel;
-    for (int c = 0; c < 4; ++c)
-      color.c[c] = hn::LoadU(kFloat, colors[c] + i), texel.c[c] = hn::LoadU(kFloat, texels[c] + i);
+    for (int c = 0; c < 4; ++c) {
+      color.c[c] = hn::LoadU(kFloat, colors[c] + i);
+      texel.c[c] = hn::LoadU(kFloat, texels[c] + i);
+    }
     color = texture_env_lanes(texture, color, texel);
     for (int c = 0; c < 4; ++c) hn::StoreU(color.c[c], kFloat, colors[c] + i);
   }
@@ -43,9 +45,12 @@ bool coordinate_lanes(const WindowVertex (&vertices)[3], const float* const (&at
   TriangleGroup g;
   g.count = 1;
   for (int i = 0; i < kGroupSize; ++i)
-    for (int k = 0; k < 3; ++k)
-      g.x[k][i] = vertices[k].x, g.y[k][i] = vertices[k].y, g.z[k][i] = vertices[k].z,
+    for (int k = 0; k < 3; ++k) {
+      g.x[k][i] = vertices[k].x;
+      g.y[k][i] = vertices[k].y;
+      g.z[k][i] = vertices[k].z;
       g.rw[k][i] = vertices[k].rw;
+    }
   set_up_edges(g, 0, 0, {0, 0, tile_size, tile_size});
   set_up_weights(g);
   if (g.mask == 0) return false;
@@ -69,7 +74,9 @@ bool coordinate_lanes(const WindowVertex (&vertices)[3], const float* const (&at
         coordinates.at(barycentric(triangle, &wide, bx, by, chunk), [&](int field, Float value) HWY_ATTR {
           alignas(64) float lanes[kLanes];
           hn::Store(value, kFloat, lanes);
-          float* const to = field == kTextureS ? s : field == kTextureT ? t : squared;
+          float* to = squared;
+          if (field == kTextureS) to = s;
+          else if (field == kTextureT) to = t;
           for (int l = 0; l < kLanes; ++l) {
             const int p = chunk * kLanes + l;
             to[(by + p / 4) * tile_size + bx + p % 4] = lanes[l];

@@ -13,13 +13,13 @@ using namespace detail;
 using SampleTexture = void(const TextureLevels& texture, ShadingBatch& batch, int count);
 SampleTexture* sample_texture(InstructionSet isa);
 
-/// Converts 16 components of 0 .. 65280: to floats of 0..1, and to packed colors with three such components
-/// of 8 bits.
+/// Converts 16 texel components of 0 .. 65280 to floats 0..1, and to packed 8-bit RGB colours whose red,
+/// green and blue are the component.
 using TexelComponents = void(const std::uint16_t (&components)[16], float (&units)[16],
-                             std::uint32_t (&words)[16]);
+                             std::uint32_t (&packed)[16]);
 TexelComponents* texel_components(InstructionSet isa);
 
-/// Replaces colors[c] by the result of the environment with texels[c]; 16 each of r g b a.
+/// Applies the texture environment to 16 colours, in place; both arrays are in the order r g b a.
 using TextureColors = void(const DrawTexture& texture, float (&colors)[4][16], const float (&texels)[4][16]);
 TextureColors* texture_colors(InstructionSet isa);
 

@@ -16,6 +16,7 @@
 namespace tessera::test {
 namespace {
 
+// Minification filters: nearest_linear is GL_NEAREST_MIPMAP_LINEAR.
 enum class Min { nearest, linear, nearest_nearest, linear_nearest, nearest_linear, linear_linear };
 constexpr Min kMins[] = {Min::nearest,        Min::linear,         Min::nearest_nearest,
                          Min::linear_nearest, Min::nearest_linear, Min::linear_linear};
@@ -68,7 +69,7 @@ struct TestTexture {
   }
 };
 
-// Texel index wrapped as by GL_TEXTURE_WRAP, in integers.
+// Wraps a texel index as GL_TEXTURE_WRAP does, in integers.
 std::int64_t wrapped_index(std::int64_t i, TextureWrap wrap, std::int64_t size) {
   const auto modulo = [](std::int64_t a, std::int64_t n) { return (a % n + n) % n; };
   if (wrap == TextureWrap::repeat) return modulo(i, size);
@@ -86,8 +87,8 @@ double level_component(const TestTexture& texture, int level, bool linear, doubl
   };
   const double u = s * l.width, v = t * l.height;
   if (!linear) return at(static_cast<std::int64_t>(std::floor(u)), static_cast<std::int64_t>(std::floor(v)));
-  const double left = std::floor(u - 0.5), below = std::floor(v - 0.5), a = u - 0.5 - left,
-               b = v - 0.5 - below;
+  const double left = std::floor(u - 0.5), below = std::floor(v - 0.5);
+  const double a = u - 0.5 - left, b = v - 0.5 - below;
   const auto i = static_cast<std::int64_t>(left), j = static_cast<std::int64_t>(below);
   return (1 - a) * (1 - b) * at(i, j) + a * (1 - b) * at(i + 1, j) + (1 - a) * b * at(i, j + 1) +
          a * b * at(i + 1, j + 1);
@@ -95,30 +96,30 @@ double level_component(const TestTexture& texture, int level, bool linear, doubl
 
 double expected_component(const TestTexture& texture, double s, double t, double lambda, int c) {
   const TextureLevels& levels = texture.levels;
-  const double late =
-      levels.mag_linear && (texture.min == Min::nearest_nearest || texture.min == Min::nearest_linear) ? 0.5
-                                                                                                       : 0.0;
-  if (lambda <= late) return level_component(texture, 0, levels.mag_linear, s, t, c);
+  const bool min_is_nearest = texture.min == Min::nearest_nearest || texture.min == Min::nearest_linear;
+  const double magnification_limit = levels.mag_linear && min_is_nearest ? 0.5 : 0.0;
+  if (lambda <= magnification_limit) return level_component(texture, 0, levels.mag_linear, s, t, c);
   if (texture.min == Min::nearest || texture.min == Min::linear)
     return level_component(texture, 0, levels.min_linear, s, t, c);
   const double q = levels.last;
   if (!levels.blends_levels) {
-    const double d = lambda <= 0.5 ? 0 : lambda <= q + 0.5 ? std::ceil(lambda + 0.5) - 1 : q;
-    return level_component(texture, static_cast<int>(std::min(d, q)), levels.min_linear, s, t, c);
+    const double d = lambda <= 0.5 ? 0 : std::min(std::ceil(lambda + 0.5) - 1, q);
+    return level_component(texture, static_cast<int>(d), levels.min_linear, s, t, c);
   }
-  const int d1 = static_cast<int>(lambda >= q ? q : std::floor(lambda)), d2 = lambda >= q ? d1 : d1 + 1;
+  const int d1 = static_cast<int>(lambda >= q ? q : std::floor(lambda));
+  const int d2 = lambda >= q ? d1 : d1 + 1;
   const double share = lambda - std::floor(lambda);
   return (1 - share) * level_component(texture, d1, levels.min_linear, s, t, c) +
          share * level_component(texture, d2, levels.min_linear, s, t, c);
 }
 
-// Whether no nearest filter has to decide near a border between two texels.
+// Whether the point is away from borders between texels at all levels: nearest filters are unambiguous.
 bool is_clear(const TestTexture& texture, double s, double t) {
+  const auto is_near_border = [](double x) { return std::abs(x - std::round(x)) < 2e-4; };
+  const bool has_rows = texture.levels.level[0].height > 1;
   for (int level = 0; level <= texture.levels.last; ++level) {
-    const auto is_near = [](double x) { return std::abs(x - std::round(x)) < 2e-4; };
-    if (is_near(s * texture.levels.level[level].width) ||
-        (texture.levels.level[0].height > 1 && is_near(t * texture.levels.level[level].height)))
-      return false;
+    if (is_near_border(s * texture.levels.level[level].width)) return false;
+    if (has_rows && is_near_border(t * texture.levels.level[level].height)) return false;
   }
   return true;
 }
@@ -144,11 +145,13 @@ TEST(TextureSampling, MatchesTheFilterDefinitions) {
     ShadingBatch batch{};
     float lambda[kBatchPoints];
     for (int i = 0; i < kBatchPoints; ++i) {
-      // Levels that vary within a block, and constant ones.
+      // Levels of detail that vary within a block, and constant ones.
       lambda[i] = static_cast<float>(i < 32 ? between(-1.5, 10) : 1.7);
       float s, t;
-      do s = static_cast<float>(between(-2.5, 3.5)), t = static_cast<float>(between(-2.5, 3.5));
-      while (!is_clear(texture, s, t));
+      do {
+        s = static_cast<float>(between(-2.5, 3.5));
+        t = static_cast<float>(between(-2.5, 3.5));
+      } while (!is_clear(texture, s, t));
       batch.field[kTextureS][i] = s;
       batch.field[kTextureT][i] = t;
       batch.field[kFootprintSquared][i] = static_cast<float>(std::exp2(2.0 * lambda[i]));
@@ -159,12 +162,13 @@ TEST(TextureSampling, MatchesTheFilterDefinitions) {
       for (int i = 0; i < kBatchPoints; ++i) {
         const double t = texture.levels.level[0].height == 1 ? 0 : double{batch.field[kTextureT][i]};
         const double detail = 0.5 * std::log2(double{batch.field[kFootprintSquared][i]});
+        const bool is_unfiltered_mag = detail <= 0 && !texture.levels.mag_linear;
+        const bool is_unfiltered_min =
+            detail > 0.5 && !texture.levels.min_linear && !texture.levels.blends_levels;
         for (int c = 0; c < 4; ++c) {
-          const double expected = expected_component(texture, batch.field[kTextureS][i], t, detail, c),
-                       off = std::abs(255.0 * out.field[kTexelR + c][i] - expected);
-          const bool exact = (detail <= 0 && !texture.levels.mag_linear) ||
-                             (!texture.levels.min_linear && !texture.levels.blends_levels && detail > 0.5);
-          ASSERT_LE(off, exact ? 1e-4 : 0.06)
+          const double expected = expected_component(texture, batch.field[kTextureS][i], t, detail, c);
+          const double off = std::abs(255.0 * out.field[kTexelR + c][i] - expected);
+          ASSERT_LE(off, is_unfiltered_mag || is_unfiltered_min ? 1e-4 : 0.06)
               << name_of(isa) << ", " << texture.levels.level[0].width << "x"
               << texture.levels.level[0].height << ", min " << static_cast<int>(texture.min)
               << ", mag linear " << texture.levels.mag_linear << ", wraps "
@@ -238,13 +242,15 @@ TEST(TextureSampling, IsIdenticalOnEveryInstructionSetForAnyInput) {
       batch.field[kFootprintSquared][i] =
           i % 2 == 0 ? any() : std::exp2(static_cast<float>(random() % 24) - 3.0f);
     }
-    constexpr float kInfinity = std::numeric_limits<float>::infinity(),
-                    kNan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     constexpr float kOdd[] = {kInfinity, -kInfinity, kNan,    1e30f, -1e30f, 16777217.0f,
                               -1e-30f,   1e-45f,     -1e-45f, 0.0f,  -0.0f,  1.0f};
-    for (int i = 0; i < 12; ++i)
-      batch.field[kTextureS][i] = kOdd[i], batch.field[kTextureT][16 + i] = kOdd[i],
+    for (int i = 0; i < 12; ++i) {
+      batch.field[kTextureS][i] = kOdd[i];
+      batch.field[kTextureT][16 + i] = kOdd[i];
       batch.field[kFootprintSquared][32 + i] = kOdd[i];
+    }
     ShadingBatch expected = batch;
     sample_texture(InstructionSet::scalar)(texture.levels, expected, kBatchPoints);
     TextureLevels levels = texture.levels;
@@ -267,19 +273,20 @@ TEST(TextureSampling, IsIdenticalOnEveryInstructionSetForAnyInput) {
   });
 }
 
-// All 16-bit components: the kernel needs no division, and no float where only a texel is visible.
+// All 16-bit components. The kernel divides by a product and its correction, and packs unchanged texels
+// without floats.
 TEST(TextureSampling, ComponentsAreDividedAndRoundedExactly) {
   for (const InstructionSet isa : available_isas())
     for (int first = 0; first <= 65280; first += 16) {
       std::uint16_t components[16];
       for (int i = 0; i < 16; ++i) components[i] = static_cast<std::uint16_t>(std::min(first + i, 65280));
       float units[16];
-      std::uint32_t words[16];
-      texel_components(isa)(components, units, words);
+      std::uint32_t packed[16];
+      texel_components(isa)(components, units, packed);
       for (int i = 0; i < 16; ++i) {
         ASSERT_EQ(units[i], static_cast<float>(components[i]) / kTexelOne)
             << name_of(isa) << " " << components[i];
-        ASSERT_EQ(words[i], 0x010101u * static_cast<std::uint32_t>(std::fma(units[i], 255.0f, 0.5f)))
+        ASSERT_EQ(packed[i], 0x010101u * static_cast<std::uint32_t>(std::fma(units[i], 255.0f, 0.5f)))
             << name_of(isa) << " " << components[i];
       }
     }

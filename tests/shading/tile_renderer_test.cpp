@@ -28,9 +28,10 @@ constexpr int kTile = 64;
 struct Mesh {
   std::vector<WindowVertex> vertices;
   std::vector<float> attributes;
-  std::vector<std::uint32_t> visible;  // those with an area
-  int stride = 3;
+  std::vector<std::uint32_t> visible;  // triangles with an area
+  int stride = 3;                      // floats per vertex
 };
+
 bool is_clockwise(const Triangle& v) {  // y goes down
   const auto from_first = [&](std::size_t k) {
     return std::pair{Exact{v[k].x} - v[0].x, Exact{v[k].y} - v[0].y};
@@ -39,7 +40,9 @@ bool is_clockwise(const Triangle& v) {  // y goes down
   const auto [bx, by] = from_first(2);
   return ax * by - ay * bx > 0;
 }
+
 enum class Sides { both, one };  // visible sides of the triangles
+/// @param low, high  range of the attributes
 Mesh random_mesh(RandomTriangles& source, int triangles, int stride, DepthFormat kind, double low,
                  double high, Sides sides = Sides::both) {
   Mesh mesh;
@@ -102,9 +105,11 @@ TEST(TileRenderer, InterpolatedColorsMatchTheScalarTwin) {
 }
 
 std::int32_t farthest_key(DepthFormat kind) {
-  return depth_key_from_stored(kind, kind == DepthFormat::float32 ? 0x3f800000u
-                                     : kind == DepthFormat::none  ? 0xffffffu
-                                                                  : 0xffffffffu >> (32 - depth_bits(kind)));
+  switch (kind) {
+    case DepthFormat::float32: return depth_key_from_stored(kind, 0x3f800000u);
+    case DepthFormat::none: return depth_key_from_stored(kind, 0xffffffu);
+    default: return depth_key_from_stored(kind, 0xffffffffu >> (32 - depth_bits(kind)));
+  }
 }
 
 TEST(TileRenderer, ImmediateAndDeferredShadingAgree) {
@@ -118,18 +123,18 @@ TEST(TileRenderer, ImmediateAndDeferredShadingAgree) {
       for (const InstructionSet isa : available_isas()) {
         std::vector<std::uint32_t> colors[3];
         std::vector<std::int32_t> depths[3];
-        for (int way = 0; way < 3; ++way) {
+        for (int mode = 0; mode < 3; ++mode) {  // immediate, deferred, deferred triangle by triangle
           stage.clear_draws();
           TileDraw& draw = add(stage, mesh);
           draw.uses_depth = kind != DepthFormat::none;
-          draw.deferred = way != 0;
-          stage.frame().shade_immediately = way == 2;
+          draw.deferred = mode != 0;
+          stage.frame().shade_immediately = mode == 2;
           stage.render(isa, 0, 0x123456, farthest_key(kind));
-          colors[way] = stage.colors();
-          depths[way] = stage.depths();
+          colors[mode] = stage.colors();
+          depths[mode] = stage.depths();
         }
         ASSERT_EQ(colors[1], colors[0]) << name_of(isa) << ": deferred";
-        ASSERT_EQ(colors[2], colors[0]) << name_of(isa) << ": gathered per triangle";
+        ASSERT_EQ(colors[2], colors[0]) << name_of(isa) << ": deferred triangle by triangle";
         if (kind != DepthFormat::none) {
           ASSERT_EQ(depths[1], depths[0]);
         }
@@ -144,14 +149,16 @@ TEST(TileRenderer, TrianglesHaveTheColorsOfTheirVisibleSide) {
   TileHarness stage(kTile, kTile, kTile);
   for (int round = 0; round < (long_tests() ? 1000 : 60); ++round) {
     const Mesh mesh = random_mesh(source, 1 + source.between(0, 60), 6, DepthFormat::none, 0.5, 255.5);
-    std::vector<Facing> facing(mesh.vertices.size() /
-                               3);  // facing of the polygons that the triangles were cut from
+    // Facing of the polygons that the triangles were cut from.
+    std::vector<Facing> facing(mesh.vertices.size() / 3);
     for (Facing& side : facing) side = source.between(0, 1) == 0 ? Facing::front : Facing::back;
-    const bool of_polygons = round % 3 == 0, front_is_clockwise = round % 2 == 0, deferred = round % 4 < 2;
+    const bool of_polygons = round % 3 == 0;
+    const bool front_is_clockwise = round % 2 == 0;
+    const bool deferred = round % 4 < 2;
     const auto shows_back = [&](std::uint32_t id) {
+      if (of_polygons) return facing[id] == Facing::back;
       const WindowVertex* const corners = mesh.vertices.data() + 3 * std::size_t{id};
-      return of_polygons ? facing[id] == Facing::back
-                         : is_clockwise({corners[0], corners[1], corners[2]}) != front_is_clockwise;
+      return is_clockwise({corners[0], corners[1], corners[2]}) != front_is_clockwise;
     };
     for (const InstructionSet isa : available_isas()) {
       stage.clear_draws();
@@ -208,8 +215,9 @@ TEST(TileRenderer, ConstantColorsStayConstantUnderInterpolation) {
   for (int round = 0; round < 200; ++round) {
     TileHarness stage(kTile, kTile, kTile);
     Mesh mesh = random_mesh(source, 8, 3, DepthFormat::none, 0, 0);
-    const std::uint32_t r = static_cast<std::uint32_t>(source.between(0, 255)),
-                        g = static_cast<std::uint32_t>(source.between(0, 255)), b = 255;
+    const auto r = static_cast<std::uint32_t>(source.between(0, 255));
+    const auto g = static_cast<std::uint32_t>(source.between(0, 255));
+    const std::uint32_t b = 255;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
       mesh.attributes[3 * i] = static_cast<float>(r) + 0.5f;
       // An integral level; any smaller value stores the level below.
@@ -235,8 +243,8 @@ void fill_with_odd_values(ShadingBatch& batch, RandomTriangles& source) {
     for (float& value : field) value = kOdd[source.between(0, 6)];
 }
 
-// Per-pixel lighting gathers pixels of many triangles into batches. The other pixels of a batch, and its
-// previous contents, must not matter.
+// Per-pixel lighting gathers pixels of many triangles into batches. The colour of a pixel must not depend on
+// the other pixels of its batch, or on the batch's previous contents.
 TEST(TileRenderer, PixelLightingDoesNotDependOnTheBatch) {
   RandomTriangles source(45, kTile);
   RandomLighting lights(46);
@@ -299,23 +307,24 @@ PixelRect random_window(RandomTriangles& source) {
 // blocks, and for single pixels. An alpha test that always passes selects the generic path instead.
 TEST(TileRenderer, AlphaBlendingMatchesTheGenericPath) {
   RandomTriangles source(48, kTile);
-  FragmentOps mix;
-  set_dither(mix, 1, kTile);
-  mix.blend = true;
-  FragmentOps general = mix;
-  general.alpha_test = true;
-  general.alpha_func = Compare::always;
+  FragmentOps plain_blend;
+  set_dither(plain_blend, 1, kTile);
+  plain_blend.blend = true;
+  FragmentOps generic = plain_blend;
+  generic.alpha_test = true;
+  generic.alpha_func = Compare::always;
   for (const DepthFormat kind : {DepthFormat::none, DepthFormat::unorm24, DepthFormat::float32})
     for (int round = 0; round < (long_tests() ? 3000 : 100); ++round) {
       const Mesh mesh = random_mesh(source, 1 + source.between(0, 20), 4, kind, -0.1, 1.1);
-      const bool has_alpha = source.between(0, 2) != 0, constant = source.between(0, 5) == 0;
+      const bool has_alpha = source.between(0, 2) != 0;
+      const bool is_constant = source.between(0, 5) == 0;
       const PixelRect window = random_window(source);
       const std::uint32_t mask = source.between(0, 2) == 0 ? 0x5a5a5au : 0xffffffffu;
       for (const InstructionSet isa : available_isas()) {
         const auto draw_with = [&](const FragmentOps& ops) {
           TileHarness stage(kTile, kTile, kTile, kind);
           TileDraw& draw = add(stage, mesh);
-          if (constant) draw.source = ColorSource::constant;
+          if (is_constant) draw.source = ColorSource::constant;
           draw.ops = &ops;
           draw.rect = window;
           draw.write_mask = mask;
@@ -331,9 +340,9 @@ TEST(TileRenderer, AlphaBlendingMatchesTheGenericPath) {
                             kind != DepthFormat::none ? stage.depths() : std::vector<std::int32_t>(),
                             counts.shaded_pixels);
         };
-        ASSERT_EQ(draw_with(mix), draw_with(general))
+        ASSERT_EQ(draw_with(plain_blend), draw_with(generic))
             << name_of(isa) << (has_alpha ? ", alpha of the vertices" : "")
-            << (constant ? ", one colour" : "");
+            << (is_constant ? ", one colour" : "");
       }
     }
 }

@@ -27,8 +27,7 @@ void exec_bench(const std::vector<std::string>& arguments) {
   }
   throw Error(
       "found no tessera-bench next to this program or in ../libexec/tessera; it is built with the program "
-      "and "
-      "part of the package tessera");
+      "and part of the package tessera");
 }
 
 }  // namespace tessera::program::cli

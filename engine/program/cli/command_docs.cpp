@@ -171,9 +171,8 @@ std::string man_page(const std::vector<CommandDoc>& commands, const std::string&
     if (!command.examples.empty()) text += ".PP\n.nf\n" + roff(command.examples) + "\n.fi\n";
   }
   text +=
-      ".SH ENVIRONMENT\n.TP\n.B TESSERA_THREADS\ndefault of \\-\\-threads\n.TP\n.B NO_COLOR\nif set and not "
-      "empty, "
-      "pictures in the terminal consist of letters\n"
+      ".SH ENVIRONMENT\n.TP\n.B TESSERA_THREADS\ndefault of \\-\\-threads\n"
+      ".TP\n.B NO_COLOR\nif set and not empty, pictures in the terminal consist of letters\n"
       ".SH EXIT STATUS\n0 success, 1 failure, 2 wrong usage, 3 the picture differs from its reference or the "
       "self\\-test failed, 130 interrupted\n";
   return text;

@@ -16,7 +16,7 @@ struct CommandDoc {
   std::string text;
   std::string examples;
   std::vector<OptionDoc> options;
-  OptionDoc operand;  ///< without names; value empty: no operand
+  OptionDoc operand;  ///< has no names; an empty value means that there is no operand
 };
 
 /// Returns a completion script for "bash", "zsh" or "fish".

@@ -37,7 +37,7 @@ constexpr const char* kProgramExamples = R"(Examples:
   tessera selftest                                check that this machine renders correctly
   tessera completion bash > /etc/bash_completion.d/tessera)";
 
-// Refuses "--name=": CLI11 would take the next argument as its value. Returns the error; empty: none.
+/// Refuses "--name=": CLI11 would take the next argument as its value. Returns the error; empty: none.
 std::string error_of_empty_value(std::span<char* const> arguments) {
   for (const std::string_view argument : arguments) {
     if (argument == "--") break;
@@ -47,7 +47,7 @@ std::string error_of_empty_value(std::span<char* const> arguments) {
   return "";
 }
 
-// Long option names, for suggestions.
+/// Long option names, for suggestions.
 Names names_of(const CLI::App& app) {
   Names names;
   for (const CLI::Option* option : app.get_options())
@@ -111,39 +111,74 @@ std::vector<CommandDoc> docs_of(const CLI::App& program) {
   return docs;
 }
 
+/// Values that parsing fills in.
+struct Requests {
+  RenderRequest render;
+  SelftestRequest selftest;
+  std::string shell;  ///< for `completion`
+};
+
+/// The subcommands; they belong to the program.
+struct Commands {
+  CLI::App* render;
+  CLI::App* info;
+  CLI::App* selftest;
+  CLI::App* bench;
+  CLI::App* formats;
+  CLI::App* completion;
+  CLI::App* man;
+};
+
+CLI::App* add_bench(CLI::App& program) {
+  CLI::App* bench =
+      program.add_subcommand("bench", "Run benchmarks on this machine; see tessera bench --help");
+  bench->set_help_flag();
+  bench->prefix_command();
+  bench->footer(
+      "Examples:\n  tessera bench fill grid-2M\n  tessera bench --json before.json\n"
+      "  tessera bench --compare before.json");
+  return bench;
+}
+
+CLI::App* add_completion(CLI::App& program, std::string& shell) {
+  CLI::App* completion = program.add_subcommand("completion", "Print a completion script for a shell");
+  completion->add_option("shell", shell, "bash, zsh or fish")
+      ->option_text("bash|zsh|fish")
+      ->required()
+      ->check(one_of({"bash", "zsh", "fish"}));
+  completion->footer(
+      "Examples:\n  tessera completion bash > /etc/bash_completion.d/tessera\n"
+      "  tessera completion zsh > /usr/share/zsh/vendor-completions/_tessera\n"
+      "  tessera completion fish > ~/.config/fish/completions/tessera.fish");
+  return completion;
+}
+
+/// Adds the subcommands in the order of --help.
+Commands add_commands(CLI::App& program, Requests& requests) {
+  const auto add_plain = [&program](const char* name, const char* text, const char* example) {
+    CLI::App* command = program.add_subcommand(name, text);
+    command->footer(std::string("Examples:\n  ") + example);
+    return command;
+  };
+  Commands commands{};
+  commands.render = add_render(program, requests.render);
+  commands.info = add_plain("info", "Describe this machine and what Tessera uses of it", "tessera info");
+  commands.selftest = add_selftest(program, requests.selftest);
+  commands.bench = add_bench(program);
+  commands.formats =
+      add_plain("formats", "List the file formats of scenes, models and pictures", "tessera formats");
+  commands.completion = add_completion(program, requests.shell);
+  commands.man = add_plain("man", "Print the manual page, for man -l -", "tessera man | man -l -");
+  return commands;
+}
+
 int run(int argument_count, char** arguments) {
   CLI::App program{"Tessera, a multithreaded tile-based software rasterizer", "tessera"};
   program.set_version_flag("--version", std::string("tessera " TESSERA_VERSION));
   program.footer(kProgramExamples);
   program.require_subcommand(0, 1);
-  RenderRequest request;
-  CLI::App* render_command = add_render(program, request);
-  CLI::App* info = program.add_subcommand("info", "Describe this machine and what Tessera uses of it");
-  SelftestRequest selftest_request;
-  CLI::App* selftest_command = add_selftest(program, selftest_request);
-  CLI::App* bench =
-      program.add_subcommand("bench", "Run benchmarks on this machine; see tessera bench --help");
-  bench->set_help_flag();
-  bench->prefix_command();
-  CLI::App* formats =
-      program.add_subcommand("formats", "List the file formats of scenes, models and pictures");
-  CLI::App* completion = program.add_subcommand("completion", "Print a completion script for a shell");
-  std::string shell;
-  completion->add_option("shell", shell, "bash, zsh or fish")
-      ->option_text("bash|zsh|fish")
-      ->required()
-      ->check(one_of({"bash", "zsh", "fish"}));
-  CLI::App* man = program.add_subcommand("man", "Print the manual page, for man -l -");
-  info->footer("Examples:\n  tessera info");
-  bench->footer(
-      "Examples:\n  tessera bench fill grid-2M\n  tessera bench --json before.json\n  tessera bench "
-      "--compare before.json");
-  formats->footer("Examples:\n  tessera formats");
-  completion->footer(
-      "Examples:\n  tessera completion bash > /etc/bash_completion.d/tessera\n  tessera completion zsh > "
-      "/usr/share/zsh/vendor-completions/_tessera\n"
-      "  tessera completion fish > ~/.config/fish/completions/tessera.fish");
-  man->footer("Examples:\n  tessera man | man -l -");
+  Requests requests;
+  const Commands commands = add_commands(program, requests);
   if (const std::string wrong = error_of_empty_value({arguments, static_cast<std::size_t>(argument_count)});
       !wrong.empty())
     return usage_error(wrong, program);
@@ -157,22 +192,23 @@ int run(int argument_count, char** arguments) {
     return usage_error(error.what(), program);
   }
   int* threads = nullptr;
-  if (render_command->parsed()) threads = &request.options.threads;
-  if (selftest_command->parsed()) threads = &selftest_request.threads;
+  if (commands.render->parsed()) threads = &requests.render.options.threads;
+  if (commands.selftest->parsed()) threads = &requests.selftest.threads;
   if (threads != nullptr)
     if (const std::string wrong = read_threads_variable(*threads); !wrong.empty())
       return usage_error("TESSERA_THREADS: " + wrong, program);
-  if (selftest_command->parsed()) return selftest(selftest_request);
-  if (bench->parsed()) exec_bench(bench->remaining());
-  if (render_command->parsed()) {
+  if (commands.selftest->parsed()) return selftest(requests.selftest);
+  if (commands.bench->parsed()) exec_bench(commands.bench->remaining());
+  if (commands.render->parsed()) {
+    RenderRequest& request = requests.render;
     if (!request.stats_name.empty())
       request.stats = request.stats_name == "json" ? StatsFormat::json : StatsFormat::text;
     return render(std::move(request));
   }
-  if (info->parsed()) std::cout << info_text();
-  else if (formats->parsed()) std::cout << formats_text();
-  else if (completion->parsed()) std::cout << completion_script(shell, docs_of(program));
-  else if (man->parsed()) std::cout << man_page(docs_of(program), std::string(version()));
+  if (commands.info->parsed()) std::cout << info_text();
+  else if (commands.formats->parsed()) std::cout << formats_text();
+  else if (commands.completion->parsed()) std::cout << completion_script(requests.shell, docs_of(program));
+  else if (commands.man->parsed()) std::cout << man_page(docs_of(program), std::string(version()));
   else std::cout << program.help();
   return 0;
 }

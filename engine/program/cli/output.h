@@ -16,8 +16,8 @@ struct OutputRequest {
 /// Returns whether `path` is the standard output or the terminal.
 bool is_stream(const std::string& path);
 
-/// Replaces {frame} in a file name by the frame's number, padded to the digits of the last frame's number, at
-/// least 4.
+/// Replaces {frame} in a file name by the frame's number.
+/// - Zeros pad it to 4 digits, or to those of the last frame's number if it has more.
 std::string frame_path(const std::string& path, int frame, int frames);
 
 /// @throws Error

@@ -134,8 +134,8 @@ IndexedPicture indexed_picture(const FrameBuffer& buffer) {
 }
 
 /// Keeps the buffers that are read after the frame.
-void keep_buffers(bool planes, bool packed_colors, Frame& frame) {
-  if (planes) frame.keep({Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation});
+void keep_buffers(bool all, bool packed_colors, Frame& frame) {
+  if (all) frame.keep({Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation});
   else if (packed_colors) frame.keep({Buffer::color});
 }
 
@@ -149,7 +149,7 @@ void print_log(LogLevel min_level, LogLevel level, std::string_view message) {
     std::cerr << "tessera: " << kNames[static_cast<int>(level)] << ": " << printable(message) << "\n";
 }
 
-// Counting slows rendering down, so it happens in a separate, untimed rendering.
+/// Renders the scene once more, untimed: counting fragments slows rendering down.
 std::uint64_t count_fragments(const Scene& scene, RendererOptions options) {
   options.debug.count_fragments = true;
   options.progress = {};
@@ -171,7 +171,7 @@ int report_difference(const Picture& picture, const Picture& reference, const Re
   return difference.pixels == 0 ? 0 : kDiffers;
 }
 
-// Refuses contradictory outputs before anything is rendered.
+/// Refuses contradictory outputs before anything is rendered.
 void check_outputs(const RenderRequest& request, const std::string& path) {
   const auto require_frame = [&](const std::string& name) {
     if (request.frames > 1 && name.find("{frame}") == std::string::npos)
@@ -189,6 +189,13 @@ void check_outputs(const RenderRequest& request, const std::string& path) {
   if (is_stream(path)) return;
   for (int f = 0; f < request.frames; ++f)
     refuse_overwriting(frame_path(path, f, request.frames), request.input, request.reference);
+}
+
+void write_frame(const Picture& picture, const FrameBuffer& buffer, bool is_indexed, const std::string& file,
+                 const std::string& planes_folder, int compression) {
+  if (is_indexed) write_indexed_png(indexed_picture(buffer), file, compression);
+  else write_output(picture, file, compression);
+  if (!planes_folder.empty()) write_planes(buffer, planes_folder);
 }
 
 }  // namespace
@@ -226,6 +233,7 @@ int render(RenderRequest request) {
 
   int exit_code = 0;
   for (int f = 0; f < request.frames; ++f) {
+    const bool is_last = f + 1 == request.frames;
     label = request.frames > 1 ? "frame " + std::to_string(f + 1) + " of " + std::to_string(request.frames)
                                : "rendering";
     input.move_to(request.frames > 1 ? static_cast<double>(f) / (request.frames - 1) : 0);
@@ -233,7 +241,7 @@ int render(RenderRequest request) {
     FrameBuffer buffer(scene.framebuffer);
     Frame frame(buffer, renderer);
     Picture picture(scene.framebuffer.width, scene.framebuffer.height);
-    const bool indexed = is_indexed_png(buffer.format(), path);
+    const bool is_indexed = is_indexed_png(buffer.format(), path);
     if (request.explain && f == 0) {
       record(scene, frame);
       print_explanations(scene, frame);
@@ -242,24 +250,22 @@ int render(RenderRequest request) {
     for (int r = 0; r < request.repeat; ++r, ++done_renders) {
       const auto render_start = std::chrono::steady_clock::now();
       record(scene, frame);
-      keep_buffers(!request.planes_folder.empty(), indexed, frame);
+      keep_buffers(!request.planes_folder.empty(), is_indexed, frame);
       run.frame = renderer.finish(frame, picture.target());
       run.render_ms.push_back(milliseconds_since(render_start));
     }
     progress.clear();
     const auto write_start = std::chrono::steady_clock::now();
     const std::string file = frame_path(path, f, request.frames);
-    if (indexed) write_indexed_png(indexed_picture(buffer), file, request.output.compression);
-    else write_output(picture, file, request.output.compression);
-    if (!request.planes_folder.empty())
-      write_planes(buffer, frame_path(request.planes_folder, f, request.frames));
+    write_frame(picture, buffer, is_indexed, file, frame_path(request.planes_folder, f, request.frames),
+                request.output.compression);
     run.write_ms += milliseconds_since(write_start);
     for (std::size_t i = 0; i < run.buffer_bytes.size(); ++i)
       run.buffer_bytes[i] = buffer.allocated_bytes(kBuffers[i]);
     if (request.output.path.empty()) std::cerr << "tessera: wrote " << printable(file) << "\n";
-    if (request.stats != StatsFormat::none && f + 1 == request.frames)
+    if (request.stats != StatsFormat::none && is_last)
       run.frame.fragments = count_fragments(scene, run.options);
-    if (reference && f + 1 == request.frames) exit_code = report_difference(picture, *reference, request);
+    if (reference && is_last) exit_code = report_difference(picture, *reference, request);
   }
   if (request.stats == StatsFormat::text) std::cerr << stats_text(run);
   if (request.stats == StatsFormat::json) std::cout << stats_json(run);

@@ -8,10 +8,10 @@
 namespace tessera::program::cli {
 
 struct CheckReport {
-  std::string name;  ///< "what, reference"
-  std::string measured;
+  std::string name;      ///< "checked quantity, reference"
+  std::string measured;  ///< summary of the results
   std::size_t failed_configurations = 0;
-  std::string first_failure;  ///< the first configuration that failed
+  std::string first_failure;  ///< failure of the first configuration that failed
 
   void add(const std::string& failure, const RendererOptions& configuration) {
     if (failed_configurations++ == 0) first_failure = failure + ", by " + to_text(configuration);

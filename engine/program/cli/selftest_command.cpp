@@ -33,7 +33,7 @@ std::string count(std::size_t number, const char* what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
-// The hashes of colour and depth; all four do not fit a row of a terminal.
+/// The hashes of colour and depth. All four do not fit a row of a terminal.
 std::string short_text(const PictureHash& hash) { return to_text(hash).substr(0, 33); }
 
 std::string table_row(const std::string& name, const std::string& found, bool passed) {
@@ -70,8 +70,8 @@ Fingerprint render_fingerprint(const Scene& scene, Renderer& renderer) {
   return fingerprint(buffer);
 }
 
-/// Describes how a fingerprint differs from the expected one; empty: it does not. The lists hold no hashes of
-/// planes, which must match those of the first configuration.
+/// Describes how a fingerprint differs from the expected one; empty: it does not. The expected hashes contain
+/// none of planes: planes must match those of the first configuration.
 std::string difference(const Fingerprint& f, const SceneReport& scene) {
   const PictureHash hash = picture_hash(f);
   if (hash != scene.expected)

@@ -6,16 +6,20 @@
 namespace tessera::program::cli {
 
 struct SelftestRequest {
-  std::string expected;  ///< file of expected hashes (picture_hashes.h); empty: those of this version
-  bool hashes = false;   ///< only print the hashes of this machine, in the format of `expected`
-  int threads = 0;       ///< number of threads to compare with one; 0: all cores, at least 2
+  /// File of expected hashes (picture_hashes.h). Empty: the hashes embedded in this program.
+  std::string expected;
+  /// Prints the hashes of this machine, in the format of that file, and checks nothing.
+  bool hashes = false;
+  /// Everything is drawn with 1 thread and with this number of threads. 0: all cores, but at least 2.
+  int threads = 0;
 };
 
-inline constexpr int kSelftestFailed = 3;  ///< exit code
+/// Exit code if a scene or a check fails.
+inline constexpr int kSelftestFailed = 3;
 
-/// Prints a report on stdout.
-/// @return the exit code
-/// @throws Error for a list that cannot be read or lacks a scene
+/// Runs the self-test and prints a report on stdout.
+/// @return 0 or kSelftestFailed
+/// @throws Error if the file of expected hashes cannot be read or lacks a scene
 int selftest(const SelftestRequest& request);
 
 }  // namespace tessera::program::cli

@@ -30,8 +30,8 @@ std::int64_t doubled_area(const Corner& a, const Corner& b, const Corner& c) {
   return std::int64_t{b[0] - a[0]} * (c[1] - a[1]) - std::int64_t{c[0] - a[0]} * (b[1] - a[1]);
 }
 
-// Triangles of all sizes up to the guard band. Corners lie anywhere, on pixel centres, or on pixel borders,
-// some of which are tile borders.
+/// Triangles of all sizes up to the guard band. Corners lie anywhere, on pixel centres, or on pixel borders,
+/// some of which are tile borders.
 Triangles random_triangles(Rng& rng) {
   constexpr int kMaxCoordinate = 16000 * 256;
   Triangles triangles;
@@ -49,12 +49,14 @@ Triangles random_triangles(Rng& rng) {
   return triangles;
 }
 
-// Starts with two triangles that contain the frame and repeatedly splits one at an inner point, so that every
-// edge inside the frame is shared.
+/// Starts with two triangles that contain the frame and repeatedly splits one at an inner point, so that
+/// every edge inside the frame is shared.
 Triangles shared_edges(Rng& rng) {
-  constexpr int kLow = -1000, kHigh = kSide * 256 + 1000;
-  const Corner p{kLow, kLow}, q{kHigh, kLow}, r{kHigh, kHigh}, s{kLow, kHigh};
-  Triangles triangles{{p, q, r}, {p, r, s}};
+  constexpr int kLow = -1000;
+  constexpr int kHigh = kSide * 256 + 1000;
+  const Corner upper_left{kLow, kLow};
+  const Corner lower_right{kHigh, kHigh};
+  Triangles triangles{{upper_left, {kHigh, kLow}, lower_right}, {upper_left, lower_right, {kLow, kHigh}}};
   for (int tries = 0; tries < 2 * kTriangles && triangles.size() + 2 <= kTriangles; ++tries) {
     auto& split = triangles[rng.random() % triangles.size()];
     const auto [a, b, c] = split;
@@ -75,7 +77,7 @@ Triangles shared_edges(Rng& rng) {
 
 struct Expected {
   Counts counts = Counts(static_cast<std::size_t>(kSide) * kSide);  ///< number of covering triangles
-  Counts last = counts;  ///< number of the last covering triangle, from 1; 0: none
+  Counts last = counts;  ///< number of the last covering triangle, counted from 1; 0: none
 };
 
 /// Exact edge function, at least 0 inside: base + step_x * x + step_y * y at the centre of pixel (x, y).
@@ -83,7 +85,8 @@ struct Expected {
 struct EdgeFunction {
   std::int64_t base, step_x, step_y;
   EdgeFunction(const Corner& from, const Corner& to) {
-    const std::int64_t along_x = to[0] - from[0], along_y = to[1] - from[1];
+    const std::int64_t along_x = to[0] - from[0];
+    const std::int64_t along_y = to[1] - from[1];
     base = along_x * (128 - from[1]) - along_y * (128 - from[0]);
     step_x = -along_y * 256;
     step_y = along_x * 256;
@@ -106,8 +109,11 @@ Expected reference_coverage(const Triangles& triangles) {
     const EdgeFunction edges[3] = {{a, second}, {second, third}, {third, a}};
     const auto [left, right] = std::minmax({a[0], b[0], c[0]});
     const auto [top, bottom] = std::minmax({a[1], b[1], c[1]});
-    const int x0 = std::max((left + 127) >> 8, 0), x1 = std::min((right - 128) >> 8, kSide - 1);
-    const int y0 = std::max((top + 127) >> 8, 0), y1 = std::min((bottom - 128) >> 8, kSide - 1);
+    // Pixels whose centres lie within the bounds.
+    const int x0 = std::max((left + 127) >> 8, 0);
+    const int x1 = std::min((right - 128) >> 8, kSide - 1);
+    const int y0 = std::max((top + 127) >> 8, 0);
+    const int y1 = std::min((bottom - 128) >> 8, kSide - 1);
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
         if (edges[0].at(x, y) < 0 || edges[1].at(x, y) < 0 || edges[2].at(x, y) < 0) continue;
@@ -119,7 +125,7 @@ Expected reference_coverage(const Triangles& triangles) {
   return expected;
 }
 
-/// Returns clip-space positions: either winding, each triangle nearer than the one before.
+/// Returns positions in clip space. Triangles have random winding; each is nearer than the one before.
 std::vector<float> clip_positions(const Triangles& triangles, Rng& rng) {
   std::vector<float> positions;
   float depth = 1;
@@ -161,47 +167,63 @@ Counts drawn_numbers(const std::vector<float>& positions, Shading shading, Rende
   return packed_colors(buffer);
 }
 
-}  // namespace
+struct Case {
+  std::vector<float> positions;
+  Expected exact;
+  Shading shading;
+};
 
-CheckReport check_coverage(const Configurations& configurations) {
+std::vector<Case> random_cases() {
   Rng rng{std::mt19937(1)};
-  struct Case {
-    std::vector<float> positions;
-    Expected exact;
-    Shading shading;
-  };
   std::vector<Case> cases;
-  std::size_t triangle_count = 0;
   for (int round = 0; round < kRounds; ++round)
     for (const bool shared : {false, true}) {
       const Triangles triangles = shared ? shared_edges(rng) : random_triangles(rng);
-      triangle_count += triangles.size();
       cases.push_back({clip_positions(triangles, rng), reference_coverage(triangles),
                        round % 2 == 0 ? Shading::gouraud : Shading::flat});
       // Triangles with shared edges cover each pixel exactly once.
       if (shared) cases.back().exact.counts.assign(cases.back().exact.counts.size(), 1);
     }
+  return cases;
+}
+
+/// Counts pixels that differ from the expected ones, and describes the first.
+class PixelComparison {
+ public:
+  /// @param before, after  text around the number found at a pixel
+  void compare(const Counts& drawn, const Counts& exact, const char* before, const char* after) {
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      if (drawn[i] == exact[i]) continue;
+      if (wrong_pixels_++ == 0)
+        first_wrong_ = "pixel (" + std::to_string(i % kSide) + ", " + std::to_string(i / kSide) + ") " +
+                       before + std::to_string(drawn[i]) + after + ", expected " + std::to_string(exact[i]);
+    }
+  }
+  std::size_t wrong_pixels() const { return wrong_pixels_; }
+  const std::string& first_wrong() const { return first_wrong_; }
+
+ private:
+  std::size_t wrong_pixels_ = 0;
+  std::string first_wrong_;
+};
+
+}  // namespace
+
+CheckReport check_coverage(const Configurations& configurations) {
+  const std::vector<Case> cases = random_cases();
+  std::size_t triangle_count = 0;
+  for (const Case& c : cases) triangle_count += c.positions.size() / 9;  // 3 corners of 3 components
   CheckReport report{.name = "coverage, exact integers", .measured = {}, .first_failure = {}};
   std::size_t wrong_pixels = 0;
   for (const RendererOptions& configuration : configurations) {
     Renderer renderer(configuration);
-    std::size_t wrong = 0;
-    std::string first_wrong;
-    const auto compare = [&](const Counts& drawn, const Counts& exact, const char* before,
-                             const char* after) {
-      for (std::size_t i = 0; i < drawn.size(); ++i) {
-        if (drawn[i] == exact[i]) continue;
-        if (wrong++ == 0)
-          first_wrong = "pixel (" + std::to_string(i % kSide) + ", " + std::to_string(i / kSide) + ") " +
-                        before + std::to_string(drawn[i]) + after + ", expected " + std::to_string(exact[i]);
-      }
-    };
+    PixelComparison pixels;
     for (const Case& c : cases) {
-      compare(drawn_counts(c.positions, renderer), c.exact.counts, "is covered ", " times");
-      compare(drawn_numbers(c.positions, c.shading, renderer), c.exact.last, "shows triangle ", "");
+      pixels.compare(drawn_counts(c.positions, renderer), c.exact.counts, "is covered ", " times");
+      pixels.compare(drawn_numbers(c.positions, c.shading, renderer), c.exact.last, "shows triangle ", "");
     }
-    wrong_pixels += wrong;
-    if (wrong != 0) report.add(first_wrong, configuration);
+    wrong_pixels += pixels.wrong_pixels();
+    if (pixels.wrong_pixels() != 0) report.add(pixels.first_wrong(), configuration);
   }
   report.measured = std::to_string(triangle_count * configurations.size()) + " triangles, " +
                     std::to_string(wrong_pixels) + " pixels wrong";

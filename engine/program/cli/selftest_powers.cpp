@@ -1,7 +1,7 @@
 // Measures powers through highlights. With a directional light along the view, the cosine of the highlight is
-// the normal's z, so that a vertex shows emission + specular * z^shininess. With specular = 2^18 and an
-// emission that brings the exact result to 1/2, 1/64 of full colour is one unit in the last place (ulp) of a
-// power in 1/2 .. 1; specular is scaled likewise for smaller powers.
+// the normal's z, so the colour of a vertex is emission + specular * z^shininess. The emission brings the
+// exact colour to 1/2. With specular = 2^18, an error of one unit in the last place (ulp) of a power in 1/2
+// .. 1, 2^-24, changes the colour by 1/64. Specular is doubled for each octave of smaller powers.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -18,9 +18,9 @@ constexpr int kPoints = kSide * kSide;
 constexpr int kOctaves = 8;                      // powers of at least 1/256
 constexpr double kMeasurementUlps = 64 / 510.0;  // a stored level is known to 1/510 of full colour
 
-/// Error bound in ulp. Whole exponents up to 64 are products and have the error of that many roundings. The
-/// bound of the other exponents tested here is that of tests/shading/power_test.cpp; for arbitrary ones 15.6
-/// is guaranteed (tests/numerics/README.md).
+/// Error bound in ulp. Powers with whole exponents up to 64 are products of exponent - 1 roundings. The other
+/// exponents have the bound of tests/shading/power_test.cpp, which holds for those tested here; for arbitrary
+/// exponents 15.6 is guaranteed (tests/numerics/README.md).
 double bound_ulps(float exponent) {
   const bool is_product = exponent == std::floor(exponent) && exponent <= 64;
   return is_product ? std::max(double{exponent} - 1, 1.0) : 14;
@@ -82,7 +82,7 @@ struct Powers {
   }
 };
 
-// Formats as "14" or "9.9".
+/// Formats as "14" or "9.9".
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.*f", value == std::floor(value) ? 0 : 1, value);
@@ -102,7 +102,7 @@ CheckReport check_powers(const Configurations& configurations) {
     Renderer renderer(configuration);
     for (const Powers& p : powers) {
       const double error = p.largest_error_ulps(renderer);
-      // "or more": errors above 31 ulp saturate at black or white.
+      // Colours saturate at black or white, so errors above 31 ulp are reported too small: "or more".
       if (error > bound_ulps(p.exponent) + kMeasurementUlps)
         report.add("the error of x^" + number(p.exponent) + " is " + number(error) +
                        " ulp or more, must be at most " + number(bound_ulps(p.exponent)),

@@ -18,8 +18,8 @@ struct RunStats {
   double load_ms = 0;
   double write_ms = 0;
   std::vector<double> render_ms;  ///< one per rendering
-  std::array<std::size_t, 4>
-      buffer_bytes{};  ///< memory of the planes of colour, depth, stencil, accumulation
+  /// Memory of the planes of colour, depth, stencil and accumulation.
+  std::array<std::size_t, 4> buffer_bytes{};
 };
 
 std::string stats_text(const RunStats& stats);

@@ -7,9 +7,10 @@
 namespace tessera::program {
 
 /// Appends a PNG file to `file`.
-/// @param indices  one byte per pixel, rows from the top
-/// @param palette  3 bytes per entry; ignored if palette_entries is 0: the picture is then grey
-/// @param compression  0 .. 9
+/// @param indices          one byte per pixel, rows from the top
+/// @param palette          3 bytes per entry
+/// @param palette_entries  0: a grey picture without a palette
+/// @param compression      0 .. 9
 /// @return the error; empty: success
 std::string encode_indexed_png(const unsigned char* indices, int width, int height, int bits,
                                const unsigned char* palette, int palette_entries, int compression,

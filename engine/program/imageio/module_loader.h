@@ -10,8 +10,8 @@
 namespace tessera::program {
 
 /// Returns the bytes of an image file.
-/// @param extension  selects the format; in lower case with its dot
-/// @param compression  of PNG, 0 .. 9, or kDefaultCompression
+/// @param extension    selects the format; in lower case with its dot
+/// @param compression  PNG level, 0 .. 9, or kDefaultCompression
 std::string encode_by_module(const Picture& picture, const std::string& extension, int compression);
 
 /// Returns the bytes of a PNG file.

@@ -35,14 +35,16 @@ struct IndexedPicture {
 constexpr int kDefaultCompression = -1;
 
 /// Writes a picture in the format of the path's extension: .ppm (24 bits), .pgm (luminance), .pfm (floats, 1
-/// is full intensity), .raw (RGBA bytes), .png, and every other format of OpenImageIO. An existing file is
-/// either replaced as a whole or stays as it was.
-/// @param compression  of PNG, 0 .. 9
+/// is full intensity), .raw (RGBA bytes), .png, and every other format of OpenImageIO.
+/// - An existing file is either replaced as a whole or stays as it was.
+/// @param compression  PNG level, 0 .. 9, or kDefaultCompression; other formats ignore it
 /// @throws Error, naming the path, for an unknown format, a missing module, or a file that cannot be written
 void write_picture(const Picture& picture, const std::string& path, int compression = kDefaultCompression);
 
-/// Checks, before expensive work, that write_picture() can succeed: that it knows the format, and
-/// require_writable().
+/// Checks, before expensive work, that write_picture() can succeed: it must know the format, and
+/// require_writable() must succeed.
+/// @return the result of require_writable()
+/// @throws Error as write_picture() does
 std::optional<std::filesystem::path> require_writable_picture(const std::string& path);
 
 /// Writes a PNG file of picture.bits per pixel.
@@ -56,8 +58,10 @@ std::string encode_ppm(const Picture& picture);
 /// @throws Error, naming the path
 Picture read_picture(const std::string& path);
 
-/// Return the file name extensions that are written without the module, and with it.
+/// Returns the file name extensions that are written without the module.
 std::vector<std::string> builtin_extensions();
+/// Returns the file name extensions that the module writes.
+/// @throws Error without the module
 std::vector<std::string> module_extensions();
 
 /// Writes a plane as a binary PBM; a set bit is PBM's 1.

@@ -28,7 +28,9 @@ std::optional<float> number(const aiMaterial& from, const char* key, unsigned ty
 
 // Black, or the value that assimp's readers write for formats without ambient colours.
 bool is_placeholder(const Color& c) {
-  return (c.r <= 0 && c.g <= 0 && c.b <= 0) || (c.r == 0.05f && c.g == 0.05f && c.b == 0.05f);
+  const bool is_black = c.r <= 0 && c.g <= 0 && c.b <= 0;
+  const bool is_default = c.r == 0.05f && c.g == 0.05f && c.b == 0.05f;
+  return is_black || is_default;
 }
 Color scaled(const Color& c, float by) { return {c.r * by, c.g * by, c.b * by, 1}; }
 
@@ -46,8 +48,8 @@ Material phong_material(const aiMaterial& from, int model) {
   material.ambient = is_placeholder(ambient) ? material.diffuse : ambient;
   material.emission = emission(from);
   const float shininess = number(from, AI_MATKEY_SHININESS).value_or(0);
-  const bool has_highlight = shininess > 0 && model != aiShadingMode_Gouraud &&
-                             model != aiShadingMode_Flat;  // exponent 0: a highlight on the whole surface
+  // Exponent 0 would be a highlight on the whole surface.
+  const bool has_highlight = shininess > 0 && model != aiShadingMode_Gouraud && model != aiShadingMode_Flat;
   if (has_highlight) {
     material.specular = color(from, AI_MATKEY_COLOR_SPECULAR).value_or(material.specular);
     material.shininess = std::min(shininess, kMaxShininess);

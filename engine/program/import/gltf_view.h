@@ -12,11 +12,11 @@ namespace tessera::program {
 /// Lights (KHR_lights_punctual) are in physical units and become
 ///   diffuse = specular = color * intensity / pi    reflected by a white surface
 ///   attenuation 1 / d^2 of points and spots        d in metres
-///   spot cutoff = outer cone angle; the exponent halves the light at the angle where glTF's ramp between the
-///   two cones does
+///   spot cutoff = outer cone angle
+///   spot exponent: both falloffs are 1/2 at the same angle (spot_exponent.h)
 /// @return false, with nothing added, if the file is not glTF 2
 bool add_gltf_view(const std::string& path, Model& model);
-/// As above, from the file's bytes.
+/// Reads the file's bytes instead of the file.
 bool add_gltf_view_of_bytes(const std::string& bytes, Model& model);
 
 }  // namespace tessera::program

@@ -25,12 +25,13 @@ Float3 float3(const std::vector<float>& from, std::uint32_t vertex) {
   return {p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f};  // turns -0 into +0
 }
 
-// Its length is twice the area.
+/// The length is twice the triangle's area.
 Double3 face_normal(const MeshData& mesh, std::size_t first_index) {
-  const Float3 a = float3(mesh.positions, mesh.indices[first_index]),
-               b = float3(mesh.positions, mesh.indices[first_index + 1]),
-               c = float3(mesh.positions, mesh.indices[first_index + 2]);
-  Double3 u, v;
+  const Float3 a = float3(mesh.positions, mesh.indices[first_index]);
+  const Float3 b = float3(mesh.positions, mesh.indices[first_index + 1]);
+  const Float3 c = float3(mesh.positions, mesh.indices[first_index + 2]);
+  Double3 u;
+  Double3 v;
   for (std::size_t k = 0; k < 3; ++k) {
     u[k] = double{b[k]} - a[k];
     v[k] = double{c[k]} - a[k];
@@ -45,11 +46,11 @@ Double3 unit(const Double3& n) {
 }
 
 bool is_missing(const Float3& normal) {
-  return !(normal[0] != 0 || normal[1] != 0 || normal[2] != 0) ||
-         !std::isfinite(normal[0] + normal[1] + normal[2]);
+  const bool is_zero = !(normal[0] != 0 || normal[1] != 0 || normal[2] != 0);
+  return is_zero || !std::isfinite(normal[0] + normal[1] + normal[2]);
 }
 
-// Sorts corners by position; positions with NaN components come last.
+/// Sorts corners by position. Positions with NaN components come last.
 std::vector<std::uint32_t> corners_by_position(const MeshData& mesh) {
   std::vector<std::uint32_t> corners(mesh.indices.size() / 3 * 3);
   std::iota(corners.begin(), corners.end(), 0u);
@@ -60,13 +61,15 @@ std::vector<std::uint32_t> corners_by_position(const MeshData& mesh) {
     return p;
   };
   std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Float3 p = key(a), q = key(b);
+    const Float3 p = key(a);
+    const Float3 q = key(b);
     return p != q ? p < q : a < b;
   });
   return corners;
 }
 
-// Assigns normals to corners. A vertex takes the first normal; corners with another one get a copy of it.
+/// Assigns normals to corners. A vertex keeps the first normal that it gets; corners with another normal get
+/// a copy of the vertex.
 class VertexSplitter {
  public:
   explicit VertexSplitter(MeshData& mesh) : mesh_(mesh), is_set_(mesh.vertex_count()) {}
@@ -109,8 +112,8 @@ void add_creased_normals(MeshData& mesh, double crease_degrees) {
   std::vector<bool> missing;
   for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex)
     missing.push_back(is_missing(float3(mesh.normals, vertex)));
-  std::vector<Double3> normals;  // per triangle
-  std::vector<Double3> units;    // the same, normalized
+  std::vector<Double3> normals;  // per triangle, length twice its area
+  std::vector<Double3> units;    // per triangle, normalized
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     normals.push_back(face_normal(mesh, i));
     units.push_back(unit(normals.back()));
@@ -135,10 +138,9 @@ void add_creased_normals(MeshData& mesh, double crease_degrees) {
     const Float3 shared_normal = is_compared ? Float3{} : mean([](std::uint32_t) { return true; });
     for (std::size_t i = first; i < end; ++i) {
       if (!missing[mesh.indices[corners[i]]]) continue;
-      const Double3& own = units[corners[i] / 3];
-      splitter.set(corners[i],
-                   is_compared ? mean([&](std::uint32_t face) { return dot(units[face], own) >= min_cosine; })
-                               : shared_normal);
+      const Double3& face_unit = units[corners[i] / 3];
+      const auto is_smooth = [&](std::uint32_t face) { return dot(units[face], face_unit) >= min_cosine; };
+      splitter.set(corners[i], is_compared ? mean(is_smooth) : shared_normal);
     }
   }
 }

@@ -1,5 +1,4 @@
-// Reads Wavefront OBJ and MTL with tinyobjloader. Corners with the same position, normal and texture
-// coordinates share a vertex.
+// Uses tinyobjloader on text that obj_text.h has rewritten and obj_check.h has checked.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -17,7 +16,7 @@
 namespace tessera::program {
 namespace {
 
-// Reads material files, relative to the folder of the model; a missing one is a warning.
+/// Reads material files, relative to the folder of the model. A missing one is a warning.
 class MaterialFiles : public tinyobj::MaterialReader {
  public:
   explicit MaterialFiles(std::string folder) : folder_(std::move(folder)) {}
@@ -70,8 +69,8 @@ class MaterialFiles : public tinyobj::MaterialReader {
   std::map<std::string, MtlKeys, std::less<>> given_;
 };
 
-// Replaces the black that tinyobjloader leaves for colours that the file does not give: diffuse by the
-// default, ambient by the diffuse colour. Materials with illum below 2 have no highlight.
+/// Replaces the black that tinyobjloader leaves for colours that the file does not give: diffuse by the
+/// default, ambient by the diffuse colour. Materials with illum below 2 have no highlight.
 void fill_in(tinyobj::material_t& material, const MtlKeys& given, std::string& warning) {
   const Color diffuse = Material{}.diffuse;
   const float standard[3] = {diffuse.r, diffuse.g, diffuse.b};
@@ -93,7 +92,7 @@ struct Obj {
   std::vector<std::string> warnings;
 };
 
-// Splits the text into lines without repetitions.
+/// Splits the text into lines without repetitions, at most 20.
 std::vector<std::string> warning_lines(const std::string& text, const std::string& path) {
   constexpr std::size_t kMaxWarnings = 20;
   std::vector<std::string> lines;
@@ -127,13 +126,13 @@ Obj load(const std::string& path) {
   return obj;
 }
 
-// Attributes that every corner of a file has.
+/// Attributes that every corner of a file has.
 struct CornerAttributes {
   bool normals = false;
   bool texcoords = false;
 };
 
-// Turns corners (position, normal, texture coordinates) into vertices of one mesh.
+/// Turns corners (position, normal, texture coordinates) into vertices of one mesh.
 class VertexPool {
  public:
   VertexPool(const tinyobj::attrib_t& attributes, CornerAttributes given, MeshData& mesh)
@@ -168,18 +167,20 @@ class VertexPool {
     to.insert(to.end(), {from.at(3 * index), from.at(3 * index + 1), from.at(3 * index + 2)});
   }
 
-  const tinyobj::attrib_t& attributes_;
+  using Key = std::pair<std::uint64_t, std::uint32_t>;  // (position << 32 | normal, texture coordinates)
   struct Hash {
-    std::size_t operator()(const std::pair<std::uint64_t, std::uint32_t>& key) const {
+    std::size_t operator()(const Key& key) const {
       return static_cast<std::size_t>((key.first ^ key.second * 0x9e3779b97f4a7c15u) * 0xff51afd7ed558ccdu >>
                                       16);
     }
   };
+
+  const tinyobj::attrib_t& attributes_;
   bool has_normals_;
   bool has_texcoords_;
   bool has_colors_;
   MeshData& mesh_;
-  std::unordered_map<std::pair<std::uint64_t, std::uint32_t>, std::uint32_t, Hash> vertices_;
+  std::unordered_map<Key, std::uint32_t, Hash> vertices_;
 };
 
 Material material_from_mtl(const tinyobj::material_t& from, std::vector<std::string>& warnings,
@@ -198,12 +199,9 @@ Material material_from_mtl(const tinyobj::material_t& from, std::vector<std::str
           .shininess = std::clamp(from.shininess, 0.0f, kMaxShininess)};
 }
 
-}  // namespace
-
-Model import_obj(const std::string& path) {
-  Obj obj = load(path);
-  Model model{.warnings = std::move(obj.warnings)};
-
+/// @throws Error if the file has no corners
+CornerAttributes shared_attributes(const Obj& obj, const std::string& path,
+                                   std::vector<std::string>& warnings) {
   std::size_t corners = 0;
   std::size_t corners_with_normal = 0;
   std::size_t corners_with_texcoord = 0;
@@ -215,27 +213,43 @@ Model import_obj(const std::string& path) {
       corners_with_texcoord += corner.texcoord_index >= 0 && corner.texcoord_index < texcoords ? 1 : 0;
     }
   if (corners == 0) throw Error(path + ": holds no triangle");
-  const bool has_normals = corners_with_normal == corners;
-  if (!has_normals && corners_with_normal > 0)
-    model.warnings.push_back(path + ": only some corners have normals; all normals are generated");
-  const bool has_texcoords = corners_with_texcoord == corners;
-  if (!has_texcoords && corners_with_texcoord > 0)
-    model.warnings.push_back(path + ": only some corners have texture coordinates; none are used");
+  const CornerAttributes shared{.normals = corners_with_normal == corners,
+                                .texcoords = corners_with_texcoord == corners};
+  if (!shared.normals && corners_with_normal > 0)
+    warnings.push_back(path + ": only some corners have normals; all normals are generated");
+  if (!shared.texcoords && corners_with_texcoord > 0)
+    warnings.push_back(path + ": only some corners have texture coordinates; none are used");
+  return shared;
+}
 
-  // Groups triangles by material; -1 is none.
-  VertexPool pool(obj.attributes, {has_normals, has_texcoords}, model.mesh);
-  std::vector<int> order;
-  std::map<int, std::vector<std::uint32_t>> triangles;
+/// Triangles of one material.
+struct Group {
+  int material_id = -1;  ///< index in Obj::materials; -1: none
+  std::vector<std::uint32_t> indices;
+};
+
+/// Groups triangles by material, in the order of first use.
+std::vector<Group> grouped_by_material(const Obj& obj, VertexPool& pool) {
+  std::vector<Group> groups;
+  std::map<int, std::size_t> group_of;
   for (const tinyobj::shape_t& shape : obj.shapes)
     for (std::size_t face = 0; face < shape.mesh.material_ids.size(); ++face) {
-      const int material = shape.mesh.material_ids[face];
-      const auto [entry, is_new] = triangles.try_emplace(material);
-      if (is_new) order.push_back(material);
+      const int material_id = shape.mesh.material_ids[face];
+      const auto [group, is_new] = group_of.try_emplace(material_id, groups.size());
+      if (is_new) groups.push_back({material_id, {}});
       for (std::size_t k = 0; k < 3; ++k)
-        entry->second.push_back(pool.vertex(shape.mesh.indices[3 * face + k]));
+        groups[group->second].indices.push_back(pool.vertex(shape.mesh.indices[3 * face + k]));
     }
-  for (const int id : order) {
-    const std::vector<std::uint32_t>& indices = triangles[id];
+  return groups;
+}
+
+}  // namespace
+
+Model import_obj(const std::string& path) {
+  Obj obj = load(path);
+  Model model{.warnings = std::move(obj.warnings)};
+  VertexPool pool(obj.attributes, shared_attributes(obj, path, model.warnings), model.mesh);
+  for (const auto& [id, indices] : grouped_by_material(obj, pool)) {
     ModelPart part{.material_name = {},
                    .material = {},
                    .first_index = model.mesh.indices.size(),

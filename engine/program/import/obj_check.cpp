@@ -10,7 +10,7 @@
 namespace tessera::program {
 namespace {
 
-// Splits one line into words; messages name its file and number.
+/// Splits one line into words. Messages name its file and number.
 class Line {
  public:
   Line(std::string_view text, const std::string& file, std::size_t number)
@@ -51,7 +51,7 @@ class Line {
   std::size_t number_;
 };
 
-// Calls read(keyword, line) for each line.
+/// Calls read(keyword, line) for each line.
 template <class Read>
 void for_each_line(std::string_view text, const std::string& file, const Read& read) {
   for (std::size_t number = 1; !text.empty(); ++number) {
@@ -77,7 +77,7 @@ std::int64_t index_of(std::string_view text, const Line& line) {
   return index;
 }
 
-// Indices count from 1 forwards, or from -1 backwards.
+/// Indices count from 1 forwards, or from -1 backwards.
 void check_index(std::string_view text, std::int64_t count, const char* kind, const Line& line) {
   const std::int64_t index = index_of(text, line);
   if (index == 0 || index > count || index < -count)
@@ -85,7 +85,7 @@ void check_index(std::string_view text, std::int64_t count, const char* kind, co
               " " + kind + " before this line");
 }
 
-// Indices beyond the last texture coordinate are allowed: the model then has no texture coordinates.
+/// Indices beyond the last texture coordinate are allowed: the model then has no texture coordinates.
 void check_texture_index(std::string_view text, const Line& line) {
   constexpr std::int64_t kMaxIndex = std::numeric_limits<int>::max();
   const std::int64_t index = index_of(text, line);
@@ -142,8 +142,8 @@ std::map<std::string, MtlKeys, std::less<>> check_mtl(std::string_view text, con
       material->texture |= keyword == "map_Kd";
       material->dissolve |= keyword == "d" || keyword == "Tr";
     }
-    if (keyword == "Ka" || keyword == "Kd" || keyword == "Ks" || keyword == "Ke")
-      line.expect_numbers(keyword, 3);
+    const bool is_color = keyword == "Ka" || keyword == "Kd" || keyword == "Ks" || keyword == "Ke";
+    if (is_color) line.expect_numbers(keyword, 3);
     if (keyword == "Ns" || keyword == "d") line.expect_numbers(keyword, 1);
   });
   return given;

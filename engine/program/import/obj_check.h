@@ -15,8 +15,8 @@ namespace tessera::program {
 ///   impossible index of a texture coordinate
 void check_obj(std::string_view text, const std::string& file);
 
-/// The keys that an MTL file gives for a material. A colour that is not given has a default other than black;
-/// texture and dissolve are not supported.
+/// Whether an MTL file has these keys for a material. tinyobjloader does not report them, but missing
+/// colours have a default other than black, and textures and transparency cause warnings.
 struct MtlKeys {
   bool ambient = false;
   bool diffuse = false;

@@ -15,7 +15,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kSpaces) + 1);
 }
 
-// Calls edit(keyword, arguments) -> std::string for each logical line; an empty result keeps the line.
+/// Calls edit(keyword, arguments) -> std::string for each logical line; an empty result keeps the line.
 template <class Edit>
 std::string edit_lines(std::string_view text, const Edit& edit) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
@@ -44,22 +44,22 @@ std::string edit_lines(std::string_view text, const Edit& edit) {
   return result;
 }
 
-// "keyword name" with kSpaceInName inside the name.
+/// Returns "keyword name" with kSpaceInName inside the name.
 std::string line_with_name(std::string_view keyword, std::string_view name) {
   std::string line = std::string(keyword) + " " + std::string(name);
   std::replace(line.begin() + static_cast<std::ptrdiff_t>(keyword.size()) + 1, line.end(), ' ', kSpaceInName);
   return line;
 }
 
-// Accepts "2.0" as well, and ignores text after a space.
+/// Accepts "2.0" as well, and ignores text after a space.
 bool begins_with_int(std::string_view text) {
   text = text.substr(0, text.find_first_of(kSpaces));
   if (text.starts_with('+')) text.remove_prefix(1);
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const std::string_view rest = text.substr(static_cast<std::size_t>(end - text.data()));
-  return error == std::errc{} &&
-         (rest.empty() || (rest.front() == '.' && rest.find_first_not_of("0123456789", 1) == rest.npos));
+  const bool has_fraction = rest.starts_with('.') && rest.find_first_not_of("0123456789", 1) == rest.npos;
+  return error == std::errc{} && (rest.empty() || has_fraction);
 }
 
 }  // namespace
@@ -97,9 +97,9 @@ std::string normalized_mtl(const std::string& text, const std::string& path,
                          "\" is left out: only R G B is read");
       return "#";
     }
-    const bool is_grey = !arguments.empty() && arguments.find_first_of(" \t#") == arguments.npos;
+    const bool is_gray = !arguments.empty() && arguments.find_first_of(" \t#") == arguments.npos;
     const std::string number(arguments);
-    return is_grey ? std::string(keyword) + " " + number + " " + number + " " + number : std::string();
+    return is_gray ? std::string(keyword) + " " + number + " " + number + " " + number : std::string();
   });
 }
 

@@ -20,7 +20,8 @@ double value_at(const Value& keys, double time) {
   }
   if (time <= list.front().time) return list.front().value;
   for (std::size_t i = 1; i < list.size(); ++i) {
-    const Key &a = list[i - 1], &b = list[i];
+    const Key& a = list[i - 1];
+    const Key& b = list[i];
     if (time <= b.time) return a.value + (b.value - a.value) * ((time - a.time) / (b.time - a.time));
   }
   return list.back().value;

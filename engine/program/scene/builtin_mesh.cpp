@@ -1,5 +1,5 @@
-// Sphere, torus, cube, cylinder, cone, quad and grid. Each circle has one table of points, so that both sides
-// of a seam have identical coordinates.
+// Sphere, torus, cube, cylinder, cone, quad and grid. The points of each circle are computed once, so both
+// sides of a seam have identical coordinates.
 #include "engine/program/scene/builtin_mesh.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace tessera::program {
 namespace {
 
-// `count` points of the unit circle; at() takes any index >= 0 and wraps around.
+/// `count` points of the unit circle, counter-clockwise from (1, 0).
 class Circle {
  public:
   struct Point {
@@ -21,15 +21,18 @@ class Circle {
   };
 
   explicit Circle(int count) {
-    constexpr Point kQuarters[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};  // exact, so that a pole is one point
+    // Exact: cos() and sin() would not return 0 here, and a sphere's pole would not be one point.
+    constexpr Point kQuarters[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     for (int i = 0; i < count; ++i) {
       const double angle = 2 * std::numbers::pi * i / count;
       points_.push_back(4 * i % count == 0 ? kQuarters[4 * i / count]
                                            : Point{std::cos(angle), std::sin(angle)});
     }
   }
+  /// Wraps around.
+  /// @param i  0 or more
   Point at(int i) const { return points_[static_cast<std::size_t>(i) % points_.size()]; }
-  /// Point of the circle around the y axis, counter-clockwise as viewed from above: from +x through -z.
+  /// Point of a circle around the y axis: from +x towards -z, counter-clockwise as viewed from above.
   Vec3 around_y(int i, double radius, double y) const {
     const Point p = at(i);
     return {radius * p.cosine, y, -radius * p.sine};
@@ -41,9 +44,9 @@ class Circle {
 
 MeshData sphere(int n) {
   MeshData mesh;
-  const Circle circle(2 * n);  // one half is also the meridian
+  const Circle circle(2 * n);
   append_patch(mesh, 2 * n, n, [&](int i, int j) {
-    const auto [height, radius] = circle.at(j);
+    const auto [height, radius] = circle.at(j);  // meridian: half the circle, from pole to pole
     const Vec3 p = circle.around_y(i, radius, -height);
     return SurfacePoint{p, p};
   });
@@ -57,23 +60,25 @@ MeshData torus(int n) {
   const Circle ring(2 * n);
   const Circle tube(n);
   append_patch(mesh, 2 * n, n, [&](int i, int j) {
-    const auto around = ring.at(i);
-    const auto through = tube.at(j);
-    const double radius = kRingRadius + kTubeRadius * through.cosine;
-    return SurfacePoint{{radius * around.cosine, radius * around.sine, kTubeRadius * through.sine},
-                        {through.cosine * around.cosine, through.cosine * around.sine, through.sine}};
+    const auto on_ring = ring.at(i);
+    const auto on_tube = tube.at(j);
+    const double radius = kRingRadius + kTubeRadius * on_tube.cosine;
+    return SurfacePoint{{radius * on_ring.cosine, radius * on_ring.sine, kTubeRadius * on_tube.sine},
+                        {on_tube.cosine * on_ring.cosine, on_tube.cosine * on_ring.sine, on_tube.sine}};
   });
   return mesh;
 }
 
-// A square of side 2 as n x n quads around `centre`, s along `right`, t along `up`, both unit vectors.
-void append_square(MeshData& mesh, int n, Vec3 centre, Vec3 right, Vec3 up) {
+/// Appends a square of side 2 around `center`, as n x n quads.
+/// @param right, up  unit vectors along which s and t grow
+void append_square(MeshData& mesh, int n, Vec3 center, Vec3 right, Vec3 up) {
   const Vec3 normal{right.y * up.z - right.z * up.y, right.z * up.x - right.x * up.z,
                     right.x * up.y - right.y * up.x};
   append_patch(mesh, n, n, [&](int i, int j) {
-    const double s = static_cast<double>(2 * i - n) / n, t = static_cast<double>(2 * j - n) / n;
-    return SurfacePoint{{centre.x + s * right.x + t * up.x, centre.y + s * right.y + t * up.y,
-                         centre.z + s * right.z + t * up.z},
+    const double x = static_cast<double>(2 * i - n) / n;
+    const double y = static_cast<double>(2 * j - n) / n;
+    return SurfacePoint{{center.x + x * right.x + y * up.x, center.y + x * right.y + y * up.y,
+                         center.z + x * right.z + y * up.z},
                         normal};
   });
 }
@@ -95,10 +100,11 @@ MeshData grid(int n) {
   return mesh;
 }
 
-// A disc at height y; its triangles share the centre. s runs counter-clockwise as viewed from outside.
-void append_cap(MeshData& mesh, const Circle& circle, int around, double y, bool faces_up) {
-  append_patch(mesh, around, 1, [&](int i, int j) {
-    return SurfacePoint{circle.around_y(faces_up ? i : around - i, 1.0 - j, y),
+/// Appends a disc at height y, as triangles that meet at its centre. s runs counter-clockwise as viewed from
+/// outside.
+void append_cap(MeshData& mesh, const Circle& circle, int triangles, double y, bool faces_up) {
+  append_patch(mesh, triangles, 1, [&](int i, int j) {
+    return SurfacePoint{circle.around_y(faces_up ? i : triangles - i, 1.0 - j, y),
                         {0, faces_up ? 1.0 : -1.0, 0}};
   });
 }
@@ -114,14 +120,14 @@ MeshData cylinder(int n) {
   return mesh;
 }
 
-// Height 2 over radius 1, so the normal of the side is (2 cos, 1, 2 sin) / sqrt 5. Each wedge has a separate
-// normal at the apex.
+/// A cone of height 2 and radius 1. Normals of its side are (2 cos, 1, 2 sin) / sqrt(5). Each triangle has a
+/// separate vertex, with its normal, at the apex.
 MeshData cone(int n) {
   MeshData mesh;
   const Circle circle(2 * n);
-  const double slope = 1 / std::sqrt(5.0);
+  const double normal_y = 1 / std::sqrt(5.0);
   append_patch(mesh, 2 * n, 1, [&](int i, int j) {
-    return SurfacePoint{circle.around_y(i, 1.0 - j, 2 * j - 1), circle.around_y(i, 2 * slope, slope)};
+    return SurfacePoint{circle.around_y(i, 1.0 - j, 2 * j - 1), circle.around_y(i, 2 * normal_y, normal_y)};
   });
   append_cap(mesh, circle, 2 * n, -1, false);
   return mesh;

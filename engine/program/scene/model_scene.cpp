@@ -40,7 +40,7 @@ SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::strin
   // Points towards the viewer.
   const Vec3 back{elevation.cosine * azimuth.sine, elevation.sine, elevation.cosine * azimuth.cosine};
   const Vec3 up{-elevation.sine * azimuth.sine, elevation.cosine, -elevation.sine * azimuth.cosine};
-  const Vec3 centre = center_of_bounds(mesh);
+  const Vec3 center = center_of_bounds(mesh);
 
   constexpr double kMargin = 1.08;
   const double tangent_y = half_fovy.sine / half_fovy.cosine / kMargin;
@@ -48,8 +48,8 @@ SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::strin
   double distance = 0;
   double radius = 0;
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
-    const Vec3 p{mesh.positions[i] - centre.x, mesh.positions[i + 1] - centre.y,
-                 mesh.positions[i + 2] - centre.z};
+    const Vec3 p{mesh.positions[i] - center.x, mesh.positions[i + 1] - center.y,
+                 mesh.positions[i + 2] - center.z};
     if (!std::isfinite(p.x + p.y + p.z)) continue;
     distance = std::max(distance, dot(p, back) + std::max(std::abs(dot(p, right)) / tangent_x,
                                                           std::abs(dot(p, up)) / tangent_y));
@@ -59,9 +59,9 @@ SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::strin
     throw Error(name + ": the model has no extent for a camera to frame");
   // Keeps the eye away from models that are long in the direction of view.
   distance = std::max(distance, 1.5 * radius);
-  const Vec3 eye{centre.x + distance * back.x, centre.y + distance * back.y, centre.z + distance * back.z};
+  const Vec3 eye{center.x + distance * back.x, center.y + distance * back.y, center.z + distance * back.z};
   return {
-      .view = look_at(eye, centre, {0, 1, 0}),
+      .view = look_at(eye, center, {0, 1, 0}),
       .projection = Lens{.fovy = kFovy, .near = distance - 1.01 * radius, .far = distance + 1.01 * radius}};
 }
 

@@ -62,7 +62,8 @@ void read_hexadecimal_row(const Value& value, std::size_t bytes, std::vector<std
   const std::string& digits = value.text();
   if (digits.size() != 2 * bytes) value.fail(expected);
   for (std::size_t i = 0; i < digits.size(); i += 2) {
-    const int high = hexadecimal_digit(digits[i]), low = hexadecimal_digit(digits[i + 1]);
+    const int high = hexadecimal_digit(digits[i]);
+    const int low = hexadecimal_digit(digits[i + 1]);
     if (high < 0 || low < 0) value.fail(expected);
     row.push_back(static_cast<std::uint8_t>(16 * high + low));
   }

@@ -1,10 +1,10 @@
 // Reads the top level of a scene file, frame buffer, light model, lights and materials.
 #include "engine/program/scene/read_scene.h"
-#include "engine/program/scene/animate.h"
 
 #include <cstdint>
 #include <filesystem>
 
+#include "engine/program/scene/animate.h"
 #include "engine/program/scene/embedded.h"
 #include "engine/program/scene/text_file.h"
 

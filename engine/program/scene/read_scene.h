@@ -19,7 +19,7 @@ SceneCamera default_camera();
 
 LightList read_lights(const json::Value& value);
 
-/// Files that were read, so that an animation reads each once.
+/// Contents of files, so that an animation reads each file once.
 struct FileCache {
   std::map<std::string, Model> models;                             ///< by path
   std::map<std::string, std::shared_ptr<const Picture>> pictures;  ///< by path
@@ -44,8 +44,8 @@ Materials read_materials(const json::Value& value);
 Compare read_compare(const json::Value& value);
 /// Reads polygon offset, alpha test, stencil, blending and logic operation.
 void read_operations(const json::Object& object, const FrameBufferFormat& format, DrawState& state);
-/// Reads the same with scissor, depth test and masks. A number for `depth` is ignored: it is not a depth
-/// test.
+/// Reads the values of read_operations(), and scissor, depth test and masks. A number for `depth` is ignored:
+/// it is the depth of a bitmap or an image.
 void read_fragment_state(const json::Object& object, const Scene& scene, DrawState& state);
 
 BitmapCommand read_bitmap(const json::Value& value, const Scene& scene);

@@ -96,7 +96,7 @@ class SceneFile {
 
 /// Reads the scene of a file at time 0.
 Scene load_scene(const std::string& path);
-/// As above, from JSON text.
+/// Reads the scene of a JSON text at time 0.
 /// @param name         name of the file, for messages
 /// @param base_folder  folder of relative paths in the scene; empty: the current folder
 Scene parse_scene(std::string_view text, const std::string& name, const std::string& base_folder = "");

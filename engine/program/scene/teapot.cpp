@@ -24,8 +24,8 @@ Vec3 operator*(double k, Vec3 a) { return {k * a.x, k * a.y, k * a.z}; }
 Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 double length(Vec3 a) { return std::hypot(a.x, a.y, a.z); }
 
-// A parameter t and its complement 1 - t, both rounded from fractions: computing 1 - t would round
-// differently from the two ends.
+/// A parameter t and its complement 1 - t, both rounded from fractions. Computing 1 - t would round
+/// differently for a curve that runs in the other direction.
 struct Parameter {
   double t;
   double complement;
@@ -39,16 +39,18 @@ bool collapsed(const Curve& c) {
 
 Vec3 point(const Curve& c, Parameter p) {
   if (collapsed(c)) return c[0];  // the sum below could vary with t in the last bit
-  const double r = p.complement, t = p.t;
+  const double r = p.complement;
+  const double t = p.t;
   return (r * r * r * c[0] + t * t * t * c[3]) + (3 * r * r * t * c[1] + 3 * t * t * r * c[2]);
 }
 
 Vec3 derivative(const Curve& c, Parameter p) {
-  const double r = p.complement, t = p.t;
+  const double r = p.complement;
+  const double t = p.t;
   return 3 * r * r * (c[1] - c[0]) + 6 * r * t * (c[2] - c[1]) + 3 * t * t * (c[3] - c[2]);
 }
 
-// Reduces each row to its point (or derivative) at s: the control points of the curve along t.
+/// Reduces each row to its point, or derivative, at s: the control points of a curve along t.
 template <class Reduce>
 Curve across(const Patch& patch, Parameter s, const Reduce& reduce) {
   return {reduce(patch[0], s), reduce(patch[1], s), reduce(patch[2], s), reduce(patch[3], s)};
@@ -92,7 +94,7 @@ std::vector<Patch> read_patches() {
 
 // Centres the teapot and scales its longest side to -1..1.
 struct Placement {
-  Vec3 centre;
+  Vec3 center;
   double scale = 1;
 };
 
@@ -117,12 +119,13 @@ Placement placement(const std::vector<Patch>& patches, int detail) {
 
 MeshData teapot_mesh(int detail) {
   const std::vector<Patch> patches = read_patches();
-  const auto [centre, scale] = placement(patches, detail);
+  const auto [center, scale] = placement(patches, detail);
   MeshData mesh;
   for (const Patch& patch : patches)
     append_patch(mesh, detail, detail, [&](int i, int j) {
-      const Parameter s = parameter(i, detail), t = parameter(j, detail);
-      return SurfacePoint{scale * (point(across(patch, s, point), t) - centre), normal(patch, s, t)};
+      const Parameter s = parameter(i, detail);
+      const Parameter t = parameter(j, detail);
+      return SurfacePoint{scale * (point(across(patch, s, point), t) - center), normal(patch, s, t)};
     });
   return mesh;
 }

@@ -12,9 +12,8 @@ namespace tessera::program {
 std::string read_text_file(const std::string& path,
                            std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
 
-/// Refuses devices and pipes, which may be endless, in the place of files named by other files. Paths on the
-/// command line may be pipes.
-/// @throws Error
+/// For files that another file names. Files on the command line may be pipes.
+/// @throws Error for devices and pipes, which may be endless
 void refuse_device_or_pipe(const std::string& path);
 
 }  // namespace tessera::program

@@ -38,23 +38,29 @@ TEST_P(CalibratedCamera, DrawsPointsAtTheirPixelAndDepth) {
     const std::array<double, 3> p{random.between(-1.5f, 1.5f), random.between(-1, 1),
                                   random.between(-1.5f, 1.5f)};
     std::array<double, 3> c = in_camera(extrinsics, p);
-    if (axes == CameraAxes::opengl) c[1] = -c[1], c[2] = -c[2];
-    const double u = kIntrinsics.fx * c[0] / c[2] + kIntrinsics.cx,
-                 v = kIntrinsics.fy * c[1] / c[2] + kIntrinsics.cy;
+    if (axes == CameraAxes::opengl) {
+      c[1] = -c[1];
+      c[2] = -c[2];
+    }
+    const double u = kIntrinsics.fx * c[0] / c[2] + kIntrinsics.cx;
+    const double v = kIntrinsics.fy * c[1] / c[2] + kIntrinsics.cy;
     const double column = std::floor(u + 0.5), row = std::floor(v + 0.5);
     const bool near_border = std::max(std::abs(u - column), std::abs(v - row)) > 0.45;
     if (near_border || column < 0 || column >= 320 || row < 0 || row >= 240) continue;
     // A triangle much smaller than a pixel, moved to the pixel's centre so that it covers that pixel alone.
     const double z = c[2];
-    std::array<double, 3> centre{(column - kIntrinsics.cx) / kIntrinsics.fx * z,
+    std::array<double, 3> center{(column - kIntrinsics.cx) / kIntrinsics.fx * z,
                                  (row - kIntrinsics.cy) / kIntrinsics.fy * z, z};
-    if (axes == CameraAxes::opengl) centre[1] = -centre[1], centre[2] = -centre[2];
+    if (axes == CameraAxes::opengl) {
+      center[1] = -center[1];
+      center[2] = -center[2];
+    }
     // Back to world space: the extrinsic matrix is rigid.
     MeshData mesh;
     const double size = 0.2 * z / kIntrinsics.fx;  // a fifth of a pixel
     const double offsets[3][2] = {{-size, -size}, {2 * size, -size}, {-size, 2 * size}};
     for (const auto& offset : offsets) {
-      const double camera_point[3] = {centre[0] + offset[0], centre[1] + offset[1], centre[2]};
+      const double camera_point[3] = {center[0] + offset[0], center[1] + offset[1], center[2]};
       for (std::size_t k = 0; k < 3; ++k) {
         double world = 0;
         for (std::size_t r = 0; r < 3; ++r)

@@ -68,7 +68,10 @@ struct GuardedImage {
         const std::uint8_t* const p = &rgba[static_cast<std::size_t>(4 * (y * width + x))];
         std::uint8_t* const out = expected.data() + (row(y) - memory.data()) + 4 * x;
         const bool swap = layout.order == PixelOrder::bgra8;
-        out[0] = p[swap ? 2 : 0], out[1] = p[1], out[2] = p[swap ? 0 : 2], out[3] = 255;
+        out[0] = p[swap ? 2 : 0];
+        out[1] = p[1];
+        out[2] = p[swap ? 0 : 2];
+        out[3] = 255;
       }
     EXPECT_TRUE(memory == expected);
   }

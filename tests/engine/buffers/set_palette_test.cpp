@@ -25,7 +25,8 @@ TEST(SetPalette, ChangesTheShownColorsAndNotTheStoredIndices) {
   const Color red{1, 0, 0, 1};
   const Color green{0, 1, 0, 1};
   const Color blue{0, 0, 1, 1};
-  const std::vector<Color> first{red, green, blue}, second{blue, red, green};
+  const std::vector<Color> first{red, green, blue};
+  const std::vector<Color> second{blue, red, green};
   buffer.set_palette(first);
   EXPECT_EQ(shown(buffer)[2], 255);
   buffer.set_palette(second);

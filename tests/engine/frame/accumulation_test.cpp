@@ -51,7 +51,8 @@ class Accumulating : public testing::Test {
 };
 
 TEST_F(Accumulating, BlursMotionBetweenTwoFrames) {
-  const MeshData left = rectangle(-0.8f, -0.5f, 0.2f, 0.5f), right = rectangle(-0.2f, -0.5f, 0.8f, 0.5f);
+  const MeshData left = rectangle(-0.8f, -0.5f, 0.2f, 0.5f);
+  const MeshData right = rectangle(-0.2f, -0.5f, 0.8f, 0.5f);
   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
   frame.draw(left.view(), unlit({1, 1, 1, 1}));
   frame.accumulate({.op = AccumOp::load, .value = 0.5});
@@ -176,13 +177,13 @@ TEST_F(Accumulating, ReturnDithersLikeEveryOtherWrite) {
 }
 
 TEST_F(Accumulating, ReadsAlphaOneWithoutAlphaPlanesAndGreyFromLuminance) {
-  FrameBuffer grey({.width = 20, .height = 20, .color_bits = 2, .accumulation_bits = 32});
-  Frame greys(grey);
-  greys.clear({.color = Color{0.7f, 0.7f, 0.7f, 0}});  // level 2 of 3
-  greys.accumulate({.value = -0.5});
-  renderer.finish(greys);
-  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(at(grey, 3, 3, c), -1 / 3.0, 1e-7);
-  EXPECT_NEAR(at(grey, 3, 3, 3), -0.5, 1e-7);
+  FrameBuffer gray({.width = 20, .height = 20, .color_bits = 2, .accumulation_bits = 32});
+  Frame grays(gray);
+  grays.clear({.color = Color{0.7f, 0.7f, 0.7f, 0}});  // level 2 of 3
+  grays.accumulate({.value = -0.5});
+  renderer.finish(grays);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(at(gray, 3, 3, c), -1 / 3.0, 1e-7);
+  EXPECT_NEAR(at(gray, 3, 3, 3), -0.5, 1e-7);
 }
 
 TEST_F(Accumulating, AllocatesNothingIfNothingAccumulates) {
@@ -317,7 +318,10 @@ TEST(FrameAccumulation, BitsAreTheSameForEveryRendererOptionAndEverySplitOfTheFr
                 if (cut) renderer.finish(frame);
               }
               if (!cut) renderer.finish(frame);
-              if (!expected) expected = fingerprint(buffer), expected_planes = plane_hashes(buffer);
+              if (!expected) {
+                expected = fingerprint(buffer);
+                expected_planes = plane_hashes(buffer);
+              }
               EXPECT_EQ(fingerprint(buffer), *expected)
                   << tile_size << ", " << threads << " threads, " << name(set) << (cut ? ", cut" : "");
               EXPECT_EQ(plane_hashes(buffer), expected_planes)
@@ -366,10 +370,10 @@ TEST(FrameAccumulation, InvalidUsesAreRefused) {
               HasSubstr("colour mode is index"));
   FrameBuffer without({.width = 8, .height = 8});
   FrameBuffer index({.width = 8, .height = 8, .color_mode = ColorMode::index, .color_bits = 8});
-  FrameBuffer grey({.width = 8, .height = 8, .color_bits = 2, .accumulation_bits = 16});
+  FrameBuffer gray({.width = 8, .height = 8, .color_bits = 2, .accumulation_bits = 16});
   Frame none(without);
   Frame indices(index);
-  Frame greys(grey);
+  Frame grays(gray);
   EXPECT_THAT(message_of([&] { none.accumulate({}); }), HasSubstr("has no accumulation buffer"));
   EXPECT_THAT(message_of([&] { none.clear({.accumulation = Color{}}); }),
               HasSubstr("has no accumulation buffer"));
@@ -377,20 +381,20 @@ TEST(FrameAccumulation, InvalidUsesAreRefused) {
   std::vector<float> rgba(256);
   EXPECT_THAT(message_of([&] { without.read_accumulation(rgba); }), HasSubstr("has no accumulation buffer"));
   EXPECT_THAT(message_of([&] { indices.accumulate({}); }), HasSubstr("indices"));
-  EXPECT_THAT(message_of([&] { greys.accumulate({.value = std::numeric_limits<double>::quiet_NaN()}); }),
+  EXPECT_THAT(message_of([&] { grays.accumulate({.value = std::numeric_limits<double>::quiet_NaN()}); }),
               HasSubstr("value holds nan, must be finite"));
-  EXPECT_THAT(message_of([&] { greys.accumulate({.value = std::numeric_limits<double>::infinity()}); }),
+  EXPECT_THAT(message_of([&] { grays.accumulate({.value = std::numeric_limits<double>::infinity()}); }),
               HasSubstr("must be finite"));
-  EXPECT_THAT(message_of([&] { greys.accumulate({.scissor = Rect{0, 0, -1, 4}}); }), HasSubstr("scissor"));
+  EXPECT_THAT(message_of([&] { grays.accumulate({.scissor = Rect{0, 0, -1, 4}}); }), HasSubstr("scissor"));
   EXPECT_THAT(message_of([&] {
-                greys.accumulate({.color_mask = {true, false, true, true}});
+                grays.accumulate({.color_mask = {true, false, true, true}});
               }),
               HasSubstr("luminance alone"));
   EXPECT_THAT(message_of([&] {
-                greys.clear({.accumulation = Color{0, 0, 1.5f, 0}});
+                grays.clear({.accumulation = Color{0, 0, 1.5f, 0}});
               }),
               HasSubstr("accumulation is 1.5, must be -1 to 1"));
-  EXPECT_EQ(message_of([&] { greys.accumulate({.color_mask = {false, false, false, true}}); }), "no error");
+  EXPECT_EQ(message_of([&] { grays.accumulate({.color_mask = {false, false, false, true}}); }), "no error");
 }
 
 }  // namespace

@@ -93,8 +93,8 @@ struct RandomOperations {
   // A bitmap, or an image of 1 to 4 channels with any zoom.
   void draw_pixels(Frame& frame, Random& random, int i) const {
     const DrawState s = state(random, i);
-    const double x = random.between(-20, static_cast<float>(format.width)),
-                 y = random.between(-20, static_cast<float>(format.height));
+    const double x = random.between(-20, static_cast<float>(format.width));
+    const double y = random.between(-20, static_cast<float>(format.height));
     const double depth = random.between(0, 1);
     const double zoom_x = random.between(-4, 6);
     const double zoom_y = random.between(-4, 6);
@@ -127,9 +127,10 @@ struct RandomOperations {
   void draw_element(Frame& frame, Random& random, int i) const {
     DrawState s = state(random, i);
     s.shading = static_cast<Shading>(i / 3 % 3);
-    s.front_mode = static_cast<PolygonMode>(below(random, 3)),
+    s.front_mode = static_cast<PolygonMode>(below(random, 3));
     s.back_mode = static_cast<PolygonMode>(below(random, 3));
-    s.point_size = random.between(0.5f, 12), s.line_width = random.between(0.5f, 7);
+    s.point_size = random.between(0.5f, 12);
+    s.line_width = random.between(0.5f, 7);
     s.provoking_vertex = coin(random) ? ProvokingVertex::first : ProvokingVertex::last;
     if (coin(random))
       s.texture = &textures[static_cast<std::size_t>(below(random, static_cast<int>(textures.size())))];
@@ -197,7 +198,10 @@ struct RandomOperations {
                .test = i % 2 == 0 ? Compare::lequal : static_cast<Compare>(i / 2 % 8),
                .write = i % 5 != 2};
     if (coin(random)) s.polygon_offset = {random.between(-2, 2), random.between(-500, 500)};
-    if (coin(random)) s.depth_near = random.between(0, 0.3f), s.depth_far = random.between(0.6f, 1);
+    if (coin(random)) {
+      s.depth_near = random.between(0, 0.3f);
+      s.depth_far = random.between(0.6f, 1);
+    }
   }
 
   void choose_writes(Random& random, int i, DrawState& s) const {
@@ -231,8 +235,10 @@ struct RandomOperations {
     if (coin(random)) s.color_material = ColorMaterial::ambient_and_diffuse;
     if (i % 8 == 6) s.cull = coin(random) ? Cull::back : Cull::front;
     if (i % 9 == 7) s.front_face = FrontFace::cw;
-    const float x = random.between(-0.6f, 0.6f), y = random.between(-0.4f, 0.4f),
-                z = random.between(-0.5f, 0.5f);  // declarators are evaluated in order by every compiler
+    // Separate statements: the order in which arguments of a call are evaluated is unspecified.
+    const float x = random.between(-0.6f, 0.6f);
+    const float y = random.between(-0.4f, 0.4f);
+    const float z = random.between(-0.5f, 0.5f);
     s.transform = translate(x, y, z) * rotate(random.between(0, 360), 0, 0, 1);
     if (i % 3 == 2) s.scissor = part(random);
     choose_tests(random, i, s);

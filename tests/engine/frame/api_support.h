@@ -14,7 +14,7 @@
 namespace tessera::test {
 using namespace program;
 
-/// The same sequence on every machine and standard library.
+/// Random numbers; the same sequence on every machine and standard library.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed * 2 + 1) {}
@@ -24,7 +24,7 @@ class Random {
     state_ ^= state_ >> 27;
     return static_cast<std::uint32_t>(state_ * 0x2545f4914f6cdd1du >> 32);
   }
-  /// 24 bits, so that every step but the last is exact.
+  /// Uniform from `low` to `high`, in steps of 2^-24 of the range: 24 random bits are exact as a float.
   float between(float low, float high) {
     return low + (high - low) * (static_cast<float>(next() >> 8) / 16777216.0f);
   }

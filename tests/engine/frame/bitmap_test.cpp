@@ -72,8 +72,8 @@ TEST(Bitmap, CoversThePixelsOfItsRoundedPosition) {
         bitmaps.reserve(60);
         std::uint64_t touched = 0;
         for (int i = 0; i < 60; ++i) {
-          const auto width = 1 + static_cast<int>(below(random, i % 2 == 0 ? 140 : 20)),
-                     height = 1 + static_cast<int>(below(random, i % 3 == 0 ? 120 : 20));
+          const auto width = 1 + static_cast<int>(below(random, i % 2 == 0 ? 140 : 20));
+          const auto height = 1 + static_cast<int>(below(random, i % 3 == 0 ? 120 : 20));
           OwnBitmap& own = bitmaps.emplace_back(random, width, height, i % 3 + 1);
           const std::int64_t x = random_position(random, kWidth), y = random_position(random, kHeight);
           const std::uint32_t word = random.next() & 0xffffff;
@@ -116,7 +116,8 @@ TEST(Bitmap, PassesThroughEveryOperationLikeTriangles) {
       background(triangles);
       Bitmap bitmap{
           .bits = ones.data(), .width = place.width, .height = place.height, .depth = depth, .color = color};
-      bitmap.x = place.x, bitmap.y = place.y;
+      bitmap.x = place.x;
+      bitmap.y = place.y;
       bits.draw_bitmap(bitmap, state);
       const MeshData whole = whole_window(static_cast<float>(2 * depth - 1));
       DrawState same = draw_state(state);
@@ -296,7 +297,9 @@ TEST(Bitmap, InvalidBitmapsAreRefused) {
   EXPECT_THAT(error(as_is, {.stencil = StencilState{}}, bare), HasSubstr("no stencil buffer"));
   EXPECT_EQ(error(as_is, {}, bare), "(no error)") << "without a depth buffer the depth is not checked";
   EXPECT_EQ(of([](Bitmap& b) {
-              b.x = -1e300, b.y = 1e300, b.color = {-5, 7, 0, 2};
+              b.x = -1e300;
+              b.y = 1e300;
+              b.color = {-5, 7, 0, 2};
             }),
             "(no error)")
       << "far outside the window; colours are clamped";

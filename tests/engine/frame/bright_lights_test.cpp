@@ -17,8 +17,8 @@ struct Bright {
   bool colors_vertices;  // the specular colour comes from the vertices
 };
 
-// Minimum and maximum red of a triangle whose normals have `cosine` with the direction to the light and the
-// viewer, a common direction, so that S.n is `cosine`.
+// Minimum and maximum red of a triangle. The light and the viewer lie in the same direction, so the half
+// vector, too, has this cosine with the normals.
 std::pair<double, double> red_of(const Bright& light_and_colors, float cosine, float shininess,
                                  Shading shading) {
   MeshData mesh;

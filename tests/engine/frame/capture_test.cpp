@@ -99,16 +99,17 @@ TEST(Capture, KeepsThePictureAndAppliesToOneFrame) {
   scene.record(with);
   Pixels pixels(captured);
   with.capture(pixels.all());
-  const FrameStats a = renderer.finish(frame), b = renderer.finish(with);
+  const FrameStats stats_without = renderer.finish(frame);
+  const FrameStats stats_with = renderer.finish(with);
   EXPECT_EQ(fingerprint(plain), fingerprint(captured));
-  EXPECT_EQ(a.shaded_pixels, b.shaded_pixels);
+  EXPECT_EQ(stats_without.shaded_pixels, stats_with.shaded_pixels);
   const Pixels first = pixels;
   with.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
   renderer.finish(with);
   EXPECT_EQ(pixels.draw_ids, first.draw_ids) << "not requested again";
 }
 
-// Neither the color mode nor deferred shading affects which triangle is visible.
+// Neither the colour mode nor deferred shading affects which triangle is visible.
 TEST(Capture, IsTheSameForIndicesAndForImmediateShading) {
   const RandomFrame scene(kFormat, 400);
   FrameBufferFormat indices = kFormat;

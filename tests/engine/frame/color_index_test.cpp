@@ -101,7 +101,8 @@ TEST(ColorIndex, ColorsApplyWhereIndicesDoNot) {
 }
 
 TEST(ColorIndex, XorDrawnTwiceRestoresTheBuffer) {
-  const MeshData below = large_triangle(0, 63, 20), above = large_triangle(9, 40, 63);
+  const MeshData below = large_triangle(0, 63, 20);
+  const MeshData above = large_triangle(9, 40, 63);
   DrawState state = index_state();
   state.depth.enabled = false;
   const auto draws = [&](int times) {
@@ -112,7 +113,8 @@ TEST(ColorIndex, XorDrawnTwiceRestoresTheBuffer) {
       for (int i = 0; i < times; ++i) frame.draw(above.view(), cursor);
     });
   };
-  const PackedColors before = draws(0), once = draws(1);
+  const PackedColors before = draws(0);
+  const PackedColors once = draws(1);
   EXPECT_EQ(draws(2), before);
   const PackedColors alone = drawn(kIndexFormat, [&](Frame& frame) { frame.draw(above.view(), state); });
   for (std::size_t i = 0; i < once.size(); ++i) ASSERT_EQ(once[i], before[i] ^ alone[i]);

@@ -150,7 +150,8 @@ TEST(PlaneMask, SelectsEachBitAlone) {
         });
       };
       for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
-        const auto none = words(0, shading), all = words(0xffffffffu, shading);
+        const auto none = words(0, shading);
+        const auto all = words(0xffffffffu, shading);
         EXPECT_NE(none, all);
         for (int k = 0; k <= bits; ++k) {  // bit `bits` does not exist: no change
           const std::uint32_t mask = 1u << k;
@@ -167,8 +168,9 @@ TEST(ColorMask, SelectsTheBitsOfItsComponents) {
   for (int bits = 3; bits <= 24; ++bits) {
     const int each = bits / 3;
     const int g_bits = each + (bits % 3 > 0);
-    const std::uint32_t b = (1u << each) - 1, g = ((1u << g_bits) - 1) << each,
-                        r = ((1u << bits) - 1) & ~(g | b);
+    const std::uint32_t b = (1u << each) - 1;
+    const std::uint32_t g = ((1u << g_bits) - 1) << each;
+    const std::uint32_t r = ((1u << bits) - 1) & ~(g | b);
     const FrameBufferFormat format{.width = 70, .height = 45, .color_bits = bits};
     for (int set = 0; set < 16; ++set) {
       const auto words = [&](bool masked) {
@@ -180,7 +182,8 @@ TEST(ColorMask, SelectsTheBitsOfItsComponents) {
         });
       };
       const std::uint32_t mask = (set & 1 ? r : 0) | (set & 2 ? g : 0) | (set & 4 ? b : 0);
-      const auto all = words(false), got = words(true);
+      const auto all = words(false);
+      const auto got = words(true);
       const std::uint32_t before = all[0];  // the corner is not covered
       for (std::size_t i = 0; i < got.size(); ++i)
         ASSERT_EQ(got[i], (before & ~mask) | (all[i] & mask)) << bits << " bits, set " << set;

@@ -52,8 +52,8 @@ MeshData sheet(std::uint32_t side = 6) {
   const auto last = static_cast<float>(side - 1);
   for (std::uint32_t y = 0; y < side; ++y)
     for (std::uint32_t x = 0; x < side; ++x) {
-      const float u = 2 * static_cast<float>(x * x) / (last * last) - 1,
-                  v = 2 * static_cast<float>(y) / last - 1;
+      const float u = 2 * static_cast<float>(x * x) / (last * last) - 1;
+      const float v = 2 * static_cast<float>(y) / last - 1;
       mesh.positions.insert(mesh.positions.end(),
                             {1.4f * u, 1.4f * v, 0.3f * std::sin(2 * u) * static_cast<float>(y % 3)});
     }

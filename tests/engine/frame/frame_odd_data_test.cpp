@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -34,7 +35,7 @@ Result draw(const MeshData& mesh, const DrawState& state, RendererOptions option
   return result;
 }
 
-// Separate triangles in a row, without shared vertices; all attributes but the positions are optional.
+// Separate triangles in a row, without shared vertices, each with positions, normals and colours.
 MeshData row_of_triangles(int count) {
   MeshData mesh;
   for (int i = 0; i < count; ++i) {
@@ -118,18 +119,18 @@ TEST(FrameOddData, NonFiniteNormalsDropTheirTriangleIfNormalsAreUsed) {
     }
 }
 
-// Neither the picture nor the statistics change.
+// The triangle is drawn and counted as usual, and the capture skips the odd normals.
 TEST(FrameOddData, NonFiniteNormalsUsedByACaptureAloneDropNothing) {
   FrameBuffer buffer({.width = 16, .height = 16});
   Frame frame(buffer);
   MeshData mesh;
   mesh.positions = {-1, -1, 0, 3, -1, 0, -1, 3, 0};
-  mesh.normals = {
-      0, 0, 1, std::numeric_limits<float>::quiet_NaN(), 0, 1, std::numeric_limits<float>::infinity(), 0, 0};
+  mesh.normals = {0, 0, 1, kNan, 0, 1, kInfinity, 0, 0};
   std::vector<float> normals(3 * 16 * 16, 7.0f);
   frame.capture({.normals = normals});
   frame.draw(mesh.view(), unlit({1, 1, 1, 1}));
-  Renderer({.threads = 1}).finish(frame);
+  const FrameStats stats = Renderer({.threads = 1}).finish(frame);
+  EXPECT_EQ(stats.dropped_non_finite, 0u);
   // The normal of the first vertex, the only finite one.
   for (std::size_t i = 0; i < normals.size(); ++i) ASSERT_FLOAT_EQ(normals[i], i % 3 == 2 ? 1.0f : 0.0f);
   const std::vector<std::uint32_t> words = packed_colors(buffer);
@@ -179,18 +180,13 @@ TEST(FrameOddData, UnusedNonFiniteVertexDropsNothing) {
 
 TEST(FrameOddData, ZeroAreaTrianglesAreCountedAndDrawNothing) {
   MeshData mesh;
-  mesh.positions = {0,     0,     0,    0,
-                    0,     0,     0,    0,
-                    0,  // all corners at one point
-                    -0.5f, -0.5f, 0,    0,
-                    0,     0,     0.5f, 0.5f,
-                    0,  // collinear corners
-                    0.1f,  0.1f,  0,    0.1f,
-                    0.1f,  0,     0.5f, 0,
-                    0,  // two equal corners
-                    0.2f,  0.2f,  0,    0.2f + 1e-6f,
-                    0.2f,  0,     0.2f, 0.2f + 1e-6f,
-                    0};  // smaller than the grid of 1/256 pixel
+  const auto add = [&mesh](const std::array<float, 9>& corners) {
+    mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
+  };
+  add({0, 0, 0, 0, 0, 0, 0, 0, 0});                                    // all corners at one point
+  add({-0.5f, -0.5f, 0, 0, 0, 0, 0.5f, 0.5f, 0});                      // collinear corners
+  add({0.1f, 0.1f, 0, 0.1f, 0.1f, 0, 0.5f, 0, 0});                     // two equal corners
+  add({0.2f, 0.2f, 0, 0.2f + 1e-6f, 0.2f, 0, 0.2f, 0.2f + 1e-6f, 0});  // below the grid of 1/256 pixel
   const Result result = draw(mesh, {});
   const Result empty = draw({}, {});
   EXPECT_EQ(result.stats.triangles_in, 4u);
@@ -216,17 +212,19 @@ TEST(FrameOddData, TrianglesBehindTheEyeAreTriviallyRejected) {
   Camera camera;
   camera.projection = perspective(60, 9.0 / 7, 0.5, 50);
   MeshData mesh = row_of_triangles(6);
-  for (std::size_t i = 2; i < mesh.positions.size(); i += 3) mesh.positions[i] = 3;  // the camera faces -z
+  const auto move_to = [&mesh](float z) {
+    for (std::size_t i = 2; i < mesh.positions.size(); i += 3) mesh.positions[i] = z;
+  };
+  move_to(3);  // the camera faces -z
   const Result behind = draw(mesh, {}, {.threads = 1}, camera);
   const Result empty = draw({}, {}, {.threads = 1}, camera);
   EXPECT_EQ(behind.stats.trivially_rejected, 6u);
   EXPECT_EQ(behind.pixels, empty.pixels);
-  for (std::size_t i = 2; i < mesh.positions.size(); i += 3)
-    mesh.positions[i] = 0;  // in the eye's plane: w is 0
+  move_to(0);  // in the eye's plane: w is 0
   EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.trivially_rejected, 6u);
-  for (std::size_t i = 2; i < mesh.positions.size(); i += 3) mesh.positions[i] = -60;  // behind the far plane
+  move_to(-60);  // behind the far plane
   EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.trivially_rejected, 6u);
-  for (std::size_t i = 2; i < mesh.positions.size(); i += 3) mesh.positions[i] = -3;
+  move_to(-3);
   EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.binned, 6u);
 }
 

@@ -58,11 +58,12 @@ struct OwnImage {
   }
 };
 
-// Index of the texel that contains `place`, for texels of width `zoom` from `start`; -1 if there is none. A
-// texel includes its lower border and excludes its upper one.
+// Index of the texel that contains `place`; -1 if there is none. Texels begin at `start` and are |zoom| wide;
+// they include the lower border and exclude the upper one.
 std::int64_t texel_of(std::int64_t start, std::int64_t zoom, int count, std::int64_t place) {
   for (std::int64_t n = 0; n < count; ++n) {
-    const std::int64_t a = start + zoom * n, b = start + zoom * (n + 1);
+    const std::int64_t a = start + zoom * n;
+    const std::int64_t b = start + zoom * (n + 1);
     if (std::min(a, b) <= place && place < std::max(a, b)) return n;
   }
   return -1;
@@ -153,8 +154,8 @@ INSTANTIATE_TEST_SUITE_P(Samples, Images, testing::Values(1, 4, 8));
 TEST(Image, CoversEveryPixelExactlyOnce) {
   Random random(9);
   for (int turn = 0; turn < 300; ++turn) {
-    const int width = 1 + static_cast<int>(below(random, 300)),
-              height = 1 + static_cast<int>(below(random, 3));
+    const int width = 1 + static_cast<int>(below(random, 300));
+    const int height = 1 + static_cast<int>(below(random, 3));
     const std::vector<std::uint8_t> ones(static_cast<std::size_t>(width * height), 1);
     PixelImage image{.pixels = ones.data(), .width = width, .height = height, .channels = 1};
     image.zoom_x = random.between(-1, 1) * std::pow(10.0, below(random, 6) - 3.0);
@@ -198,7 +199,10 @@ TEST(Image, SingleTexelPassesThroughEveryOperationLikeTriangles) {
       draw_background(image, format);
       draw_background(triangles, format);
       PixelImage pixel{.pixels = texel, .width = 1, .height = 1, .depth = depth};
-      pixel.x = place.x, pixel.y = place.y, pixel.zoom_x = place.width, pixel.zoom_y = place.height;
+      pixel.x = place.x;
+      pixel.y = place.y;
+      pixel.zoom_x = place.width;
+      pixel.zoom_y = place.height;
       image.draw_image(pixel, state);
       const MeshData whole = whole_window(static_cast<float>(2 * depth - 1));
       DrawState same = draw_state(state);
@@ -222,7 +226,8 @@ TEST(Image, UsesTheAlphaOfEachTexel) {
   FrameBuffer buffer({.width = 40, .height = 24, .alpha_bits = 8});
   Frame frame(buffer);
   frame.clear({.color = Color{0, 0, 0, 0}, .depth = 1.0});
-  own.image.x = 2, own.image.y = 1;
+  own.image.x = 2;
+  own.image.y = 1;
   frame.draw_image(own.image, {.alpha_test = AlphaTest{Compare::gequal, 128.0f / 255.0f}});
   Renderer({.threads = 1}).finish(frame);
   const std::vector<std::uint32_t> words = packed_colors(buffer);
@@ -252,7 +257,7 @@ TEST(Image, StoresTheNearestPaletteEntries) {
 }
 
 TEST(Image, CountsAsADrawInCapturesExplanationsAndStatistics) {
-  const std::vector<std::uint8_t> grey(16, 200);
+  const std::vector<std::uint8_t> gray(16, 200);
   for (const bool with_operations : {false, true}) {
     FrameBuffer buffer({.width = 40, .height = 40, .samples = with_operations ? 4 : 1});
     Frame frame(buffer);
@@ -261,7 +266,7 @@ TEST(Image, CountsAsADrawInCapturesExplanationsAndStatistics) {
     frame.draw(whole.view(), {});
     FragmentState state;
     if (with_operations) state.alpha_test = AlphaTest{Compare::greater, 0.5f};
-    frame.draw_image({.pixels = grey.data(),
+    frame.draw_image({.pixels = gray.data(),
                       .width = 4,
                       .height = 4,
                       .channels = 1,
@@ -270,7 +275,7 @@ TEST(Image, CountsAsADrawInCapturesExplanationsAndStatistics) {
                       .zoom_x = 2,
                       .zoom_y = 2},
                      state);
-    frame.draw_image({.pixels = grey.data(), .width = 4, .height = 4, .channels = 1, .zoom_x = 0}, state);
+    frame.draw_image({.pixels = gray.data(), .width = 4, .height = 4, .channels = 1, .zoom_x = 0}, state);
     EXPECT_THAT(frame.explain(1),
                 AllOf(HasSubstr("image: 4 x 4, 1 channel, one colour per texel"), HasSubstr("depth test")));
     EXPECT_THAT(frame.explain(2), HasSubstr("draw: skipped, it can change no pixel"));

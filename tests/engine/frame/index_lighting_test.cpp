@@ -65,7 +65,8 @@ TEST(IndexLighting, UsesTheMaterialOfEachFace) {
   Material white;
   white.ambient = white.diffuse = {0, 0, 0, 1};
   white.emission = {1, 1, 1, 1};
-  const Material first = index_material(20, 40, 40, 0), second = index_material(0, 33, 33, 0);
+  const Material first = index_material(20, 40, 40, 0);
+  const Material second = index_material(0, 33, 33, 0);
   struct Case {
     Material front;
     Material back;

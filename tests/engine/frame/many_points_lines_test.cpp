@@ -80,7 +80,8 @@ Elements random_lines(std::uint64_t seed) {
     const int reach = (i % 16 == 0 ? 40 : 8) * 256 / unit;
     LinePoint b{a.x + unit * about(random, reach), a.y + unit * about(random, reach)};
     const std::uint32_t word = random.next() & 0xffffff;
-    LinePoint from = a, to = b;
+    LinePoint from = a;
+    LinePoint to = b;
     float z[2] = {0, 0};
     if (i % 4 == 0) {
       // From distance 1 inside the plane to 1, 3 or 1/3 outside.
@@ -90,7 +91,8 @@ Elements random_lines(std::uint64_t seed) {
       const int side = below(random, 2) != 0 ? 1 : -1;
       z[end] = static_cast<float>(side) * kOuterDepth[quarters];
       z[1 - end] = quarters == 3 ? static_cast<float>(side) * 0.25f : 0.0f;
-      const LinePoint inner = end == 1 ? a : b, outer = end == 1 ? b : a;
+      const LinePoint inner = end == 1 ? a : b;
+      const LinePoint outer = end == 1 ? b : a;
       const LinePoint cut{inner.x + (outer.x - inner.x) / 4 * quarters,
                           inner.y + (outer.y - inner.y) / 4 * quarters};
       (end == 1 ? to : from) = cut;

@@ -31,16 +31,28 @@ inline Rect intersection(const Rect& a, const Rect& b) {
 inline std::vector<FrameBufferFormat> operation_formats() {
   const FrameBufferFormat base{.width = 70, .height = 50};
   std::vector<FrameBufferFormat> formats(9, base);
-  formats[1].depth = DepthFormat::unorm16, formats[1].color_bits = 8, formats[1].dither = Dither::bayer4;
-  formats[2].depth = DepthFormat::float32, formats[2].alpha_bits = 8;
-  formats[3].depth = DepthFormat::unorm32, formats[3].color_mode = ColorMode::index,
-  formats[3].color_bits = 4, formats[3].dither = Dither::bayer2;
+  formats[1].depth = DepthFormat::unorm16;
+  formats[1].color_bits = 8;
+  formats[1].dither = Dither::bayer4;
+  formats[2].depth = DepthFormat::float32;
+  formats[2].alpha_bits = 8;
+  formats[3].depth = DepthFormat::unorm32;
+  formats[3].color_mode = ColorMode::index;
+  formats[3].color_bits = 4;
+  formats[3].dither = Dither::bayer2;
   formats[4].samples = 4;
-  formats[5].samples = 8, formats[5].depth = DepthFormat::float32, formats[5].color_bits = 15,
+  formats[5].samples = 8;
+  formats[5].depth = DepthFormat::float32;
+  formats[5].color_bits = 15;
   formats[5].dither = Dither::bayer8;
-  formats[6].color_bits = 2, formats[6].depth = DepthFormat::none, formats[6].stencil_bits = 0;
-  formats[7].color_mode = ColorMode::index, formats[7].color_bits = 8;
-  formats[8].color_bits = 1, formats[8].depth = DepthFormat::unorm32, formats[8].samples = 4;
+  formats[6].color_bits = 2;
+  formats[6].depth = DepthFormat::none;
+  formats[6].stencil_bits = 0;
+  formats[7].color_mode = ColorMode::index;
+  formats[7].color_bits = 8;
+  formats[8].color_bits = 1;
+  formats[8].depth = DepthFormat::unorm32;
+  formats[8].samples = 4;
   return formats;
 }
 inline std::string describe(const FrameBufferFormat& f) {

@@ -110,9 +110,9 @@ TEST(Points, CoverTheSquareOfTheirSize) {
   for (int turn = 0; turn < 200; ++turn) {
     LinePoint at = random_point(random, 0);
     if (turn % 4 == 0) at = {at.x & ~127, at.y & ~127};  // pixel centres, borders and corners
-    const float size = turn % 3 == 0   ? 1.0f
-                       : turn % 3 == 1 ? static_cast<float>(1 + below(random, 40))
-                                       : random.between(0.01f, 9.4f);
+    float size = 1;
+    if (turn % 3 == 1) size = static_cast<float>(1 + below(random, 40));
+    if (turn % 3 == 2) size = random.between(0.01f, 9.4f);
     DrawState state = counting();
     state.point_size = size;
     const PixelSet expected = square_by_the_rule(at, std::max(1, static_cast<int>(std::floor(size + 0.5f))));
@@ -258,9 +258,11 @@ TEST(Lines, AreRectanglesWithSeveralSamples) {
     const std::int64_t dx = b.x - a.x;
     const std::int64_t dy = b.y - a.y;
     const std::int64_t squared = dx * dx + dy * dy;
-    // Inside a side, or on it if it is a left or top side: its positive half-plane is to its right or below.
-    const auto within = [](Wide inside, std::int64_t way_x, std::int64_t way_y) {
-      return inside > 0 || (inside == 0 && (way_x > 0 || (way_x == 0 && way_y > 0)));
+    // Whether a point lies inside a side of the rectangle, or on it if it is a left or top side.
+    // `distance` is positive inside; (inward_x, inward_y) points inside.
+    const auto within = [](Wide distance, std::int64_t inward_x, std::int64_t inward_y) {
+      const bool is_left_or_top = inward_x > 0 || (inward_x == 0 && inward_y > 0);
+      return distance > 0 || (distance == 0 && is_left_or_top);
     };
     const std::vector<std::uint32_t> expected = means(samples, [&](const LinePoint& p) {
       const std::int64_t along = dx * (p.x - a.x) + dy * (p.y - a.y);
@@ -268,8 +270,9 @@ TEST(Lines, AreRectanglesWithSeveralSamples) {
       // |across| compared with width / 2 * length, as signed squares.
       const Wide half = Wide{width} * width * squared;
       const Wide aside = 4 * Wide{across} * across * (across < 0 ? -1 : 1);
-      return squared != 0 && within(along, dx, dy) && within(squared - along, -dx, -dy) &&
-             within(half - aside, dy, -dx) && within(half + aside, -dy, dx);
+      const bool is_between_ends = within(along, dx, dy) && within(squared - along, -dx, -dy);
+      const bool is_between_sides = within(half - aside, dy, -dx) && within(half + aside, -dy, dx);
+      return squared != 0 && is_between_ends && is_between_sides;
     });
     for (Renderer& renderer : renderers.of)
       ASSERT_EQ(drawn(mesh_of(Primitive::lines, {a, b}), state, renderer, samples), expected)
@@ -309,7 +312,9 @@ TEST(Lines, ClippedAtTheNearPlaneCoverASubset) {
   DrawState state;
   state.lighting = false;
   const std::vector<std::uint32_t> cut = drawn(mesh, state, renderer);
-  mesh.positions[2] = 0.05f, mesh.positions[5] = -0.15f;  // the same end points in the window
+  // The same end points in the window.
+  mesh.positions[2] = 0.05f;
+  mesh.positions[5] = -0.15f;
   const std::vector<std::uint32_t> whole = drawn(mesh, state, renderer);
   int both = 0;
   int differ = 0;
@@ -317,8 +322,9 @@ TEST(Lines, ClippedAtTheNearPlaneCoverASubset) {
     both += cut[i] != 0 && whole[i] != 0;
     differ += cut[i] != 0 && cut[i] != whole[i];
   }
-  EXPECT_NEAR(both, 0.75 * 0.75 * kWidth, 1);  // three quarters of it lie beyond the near plane
-  EXPECT_LE(differ, 2);                        // rounding, by at most one level
+  // The line is 0.75 * kWidth pixels long; three quarters of it lie behind the near plane, in view.
+  EXPECT_NEAR(both, 0.75 * 0.75 * kWidth, 1);
+  EXPECT_LE(differ, 2) << "rounding";
 }
 
 // A line this wide has pixels far beyond its ends. At one of them, (11, 28), the weights of the ends sum to

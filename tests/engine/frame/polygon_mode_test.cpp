@@ -240,7 +240,7 @@ TEST(PolygonMode, FlatOutlinesUseThePolygonsColor) {
   }
 }
 
-// Moved by exactly the polygon's slope: a plane that rises along x, and the depth of its lines.
+// The lines and points of a plane that rises along x move by the slope of the plane.
 TEST(PolygonMode, OffsetIsSlopeTimesFactorPlusUnits) {
   MeshData mesh;
   mesh.primitive = Primitive::quads;
@@ -256,7 +256,8 @@ TEST(PolygonMode, OffsetIsSlopeTimesFactorPlusUnits) {
       Renderer({.threads = 1}).finish(frame);
       return stored_depths(buffer);
     };
-    const std::vector<std::uint32_t> before = depths(0, 0), after = depths(3, 5);
+    const std::vector<std::uint32_t> before = depths(0, 0);
+    const std::vector<std::uint32_t> after = depths(3, 5);
     const double moved = 3 * (0.375 / (0.75 * kWidth)) * 0xffffff + 5;
     int count = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {

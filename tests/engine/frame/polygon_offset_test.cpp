@@ -71,11 +71,12 @@ class Decals : public testing::TestWithParam<Setting> {
 
 // Views of the plane: head-on, nearly head-on, and at grazing angles.
 Matrix random_transform(Random& random, int turn) {
-  const double tilt = turn % 10 == 0  ? 0
-                      : turn % 3 == 0 ? std::pow(10.0, random.between(-6, 0)) * 60
-                                      : random.between(0, 85);
+  const bool is_head_on = turn % 10 == 0;
+  double tilt = 0;  // degrees
+  if (!is_head_on)
+    tilt = turn % 3 == 0 ? std::pow(10.0, random.between(-6, 0)) * 60 : double{random.between(0, 85)};
   const Matrix away = translate(random.between(-1, 1), random.between(-0.7f, 0.7f), random.between(-14, -3));
-  if (turn % 10 == 0) return away;
+  if (is_head_on) return away;
   return away * rotate(random.between(0, 360), 0, 0, 1) * rotate(tilt, random.between(-1, 1), 1, 0) *
          rotate(random.between(0, 360), 0, 0, 1);
 }
@@ -152,7 +153,8 @@ double slope_in_units(const Setting& setting, const Camera& camera, const Matrix
   const auto along = [&](std::size_t v) {
     return Vec3{window[v].x - window[0].x, window[v].y - window[0].y, window[v].z - window[0].z};
   };
-  const Vec3 a = along(1), b = along(3);
+  const Vec3 a = along(1);
+  const Vec3 b = along(3);
   const double area = a.x * b.y - a.y * b.x;
   const double slope =
       std::max(std::abs(a.z * b.y - a.y * b.z), std::abs(a.x * b.z - a.z * b.x)) / std::abs(area);
@@ -325,9 +327,9 @@ TEST(PolygonOffset, MovesUnormDepthsByWholeLevels) {
       const std::vector<std::uint32_t> plain = depths(0);
       const std::vector<std::uint32_t> nearer = depths(-1);
       const std::vector<std::uint32_t> farther = depths(3);
-      const std::uint32_t far_end = format == DepthFormat::unorm16   ? 0xffffu
-                                    : format == DepthFormat::unorm24 ? 0xffffffu
-                                                                     : 0xffffffffu;
+      std::uint32_t far_end = 0xffffffffu;
+      if (format == DepthFormat::unorm16) far_end = 0xffffu;
+      if (format == DepthFormat::unorm24) far_end = 0xffffffu;
       for (std::size_t i = 0; i < plain.size(); ++i) {
         if (plain[i] == far_end) continue;
         ASSERT_EQ(nearer[i], plain[i] - 1)

@@ -17,11 +17,11 @@ using namespace test;
 using testing::AllOf;
 using testing::HasSubstr;
 
+/// A triangle of a primitive.
 struct Split {
   std::uint32_t corners[3];
-  // Provoking vertex of the polygon, under either convention.
-  std::uint32_t last;
-  std::uint32_t first;
+  std::uint32_t last;   ///< provoking vertex of the polygon with ProvokingVertex::last
+  std::uint32_t first;  ///< with ProvokingVertex::first
 };
 struct PrimitiveCase {
   const char* name;
@@ -87,12 +87,11 @@ void append(MeshData& to, const MeshData& from, std::uint32_t position, std::uin
 // Triangles without shared vertices; at flat shading all corners have the attributes of the provoking vertex.
 MeshData as_triangles(const PrimitiveCase& of, const MeshData& mesh, const DrawState& state) {
   MeshData out;
-  for (const Split& t : of.triangles)
+  for (const Split& t : of.triangles) {
+    const std::uint32_t provoking = state.provoking_vertex == ProvokingVertex::last ? t.last : t.first;
     for (const std::uint32_t corner : t.corners)
-      append(out, mesh, corner,
-             state.shading != Shading::flat                    ? corner
-             : state.provoking_vertex == ProvokingVertex::last ? t.last
-                                                               : t.first);
+      append(out, mesh, corner, state.shading == Shading::flat ? provoking : corner);
+  }
   return out;
 }
 
@@ -228,7 +227,7 @@ TEST(PolygonPrimitives, UseTheMaterialOfTheirFacing) {
 // A quad cut by the near plane: the facing is that of the remaining part.
 TEST(PolygonPrimitives, HaveOneFacingIfClipped) {
   Random random(77);
-  int drawn_ones = 0;
+  int visible_quads = 0;
   for (int turn = 0; turn < 200; ++turn) {
     MeshData quad;
     quad.primitive = Primitive::quads;
@@ -240,11 +239,12 @@ TEST(PolygonPrimitives, HaveOneFacingIfClipped) {
     const std::size_t all = pixels_of(quad, Cull::none, FrontFace::ccw);
     const std::size_t front = pixels_of(quad, Cull::back, FrontFace::ccw);
     const std::size_t back = pixels_of(quad, Cull::front, FrontFace::ccw);
-    EXPECT_TRUE((front == all && back == 0) || (front == 0 && back == all))
-        << "turn " << turn << ": " << front << " and " << back << " of " << all;
-    drawn_ones += all > 50;
+    const bool is_front = front == all && back == 0;
+    const bool is_back = front == 0 && back == all;
+    EXPECT_TRUE(is_front || is_back) << "turn " << turn << ": " << front << " and " << back << " of " << all;
+    visible_quads += all > 50;
   }
-  EXPECT_GT(drawn_ones, 50);
+  EXPECT_GT(visible_quads, 50);
 }
 
 // Not planar: separate triangles would have different slopes and different units.
@@ -263,8 +263,8 @@ TEST(PolygonPrimitives, HaveOneOffset) {
     return stored_depths(buffer);
   };
   const std::vector<float> folded{-0.8f, -0.8f, 0, 0.8f, -0.8f, 0.6f, 0.8f, 0.8f, 0, -0.8f, 0.8f, 0};
-  const std::vector<std::uint32_t> before = depths(folded, DepthFormat::unorm24, {}),
-                                   after = depths(folded, DepthFormat::unorm24, {20, 0});
+  const std::vector<std::uint32_t> before = depths(folded, DepthFormat::unorm24, {});
+  const std::vector<std::uint32_t> after = depths(folded, DepthFormat::unorm24, {20, 0});
   // Depth rises by 0.3 over 0.8 of the window's width in the first triangle.
   const double moved = 20 * (0.3 / (0.8 * kHeight)) * 0xffffff;
   int count = 0;
@@ -300,20 +300,20 @@ TEST(PolygonPrimitives, HaveOneGeneratedNormal) {
     Renderer({.threads = 1}).finish(frame);
     return packed_colors(buffer);
   }();
-  std::uint32_t seen = 0;
+  std::uint32_t found = 0;
   for (const std::uint32_t word : words) {
     if (word == 0) continue;
-    if (seen == 0) seen = word;
-    ASSERT_EQ(word, seen) << "one colour for the whole quad";
+    if (found == 0) found = word;
+    ASSERT_EQ(word, found) << "one colour for the whole quad";
   }
-  EXPECT_NE(seen, 0u);
+  EXPECT_NE(found, 0u);
   // Smooth: each vertex belongs to the face once, so the normal is the same everywhere too.
   flat.shading = Shading::gouraud;
   FrameBuffer buffer({.width = kWidth, .height = kHeight});
   Frame frame(buffer);
   frame.draw(quad.view(), flat);
   Renderer({.threads = 1}).finish(frame);
-  for (const std::uint32_t word : packed_colors(buffer)) ASSERT_TRUE(word == 0 || word == seen);
+  for (const std::uint32_t word : packed_colors(buffer)) ASSERT_TRUE(word == 0 || word == found);
 }
 
 TEST(PolygonPrimitives, AreDroppedWholeIfAVertexIsNonFinite) {
@@ -355,15 +355,15 @@ TEST(PolygonPrimitives, AreCountedByCaptures) {
     other.capture({.primitive_ids = of_triangles});
     other.draw(split.view(), unlit({1, 1, 1, 1}));
     Renderer({.threads = 1}).finish(other);
-    std::set<std::uint32_t> seen;
+    std::set<std::uint32_t> found;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       ASSERT_EQ(numbers[i],
                 of_triangles[i] == Capture::kNothing ? Capture::kNothing : of_triangles[i] / triangles_each)
           << of.name;
-      seen.insert(numbers[i]);
+      found.insert(numbers[i]);
     }
-    seen.erase(Capture::kNothing);
-    EXPECT_EQ(seen.size(), count) << of.name;
+    found.erase(Capture::kNothing);
+    EXPECT_EQ(found.size(), count) << of.name;
   }
 }
 

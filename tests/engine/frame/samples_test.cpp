@@ -1,5 +1,5 @@
-// Coverage samples through the public interface: coverage by an independent rule in exact integers, their
-// state after the frame, and the memory of buffers that store none.
+// Coverage samples through the public interface: their coverage by an independent rule in exact integers, the
+// values stored after a frame, and the memory of buffers, which store no samples.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr int kScale = 256;
 
 FrameBufferFormat format_of(int samples) { return {.width = kWidth, .height = kHeight, .samples = samples}; }
 
-// In 1/256 pixel, y down from the top row.
+/// In 1/256 pixel, y down from the top row.
 struct Point {
   std::int64_t x, y;
 };
@@ -38,7 +38,7 @@ MeshData mesh_of(const Triangle& triangle) {
   return mesh;
 }
 
-// Sample positions of Direct3D 11, in 1/16 pixel from the centre, y down.
+/// Sample positions of Direct3D 11, in 1/16 pixel from the centre, y down.
 const std::vector<Point>& pattern(int samples) {
   static const std::vector<Point> kOne{{0, 0}};
   static const std::vector<Point> kFour{{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
@@ -52,8 +52,8 @@ Point sample_of(int x, int y, const Point& offset) {
           kScale * y + kScale / 2 + offset.y * (kScale / 16)};
 }
 
-// True if the triangle covers the point. A point on an edge is covered if the edge is a left or top edge: the
-// triangle lies to its right or below.
+/// True if the triangle covers the point. A point on an edge is covered if the edge is a left or top edge:
+/// the triangle lies to its right or below.
 bool covers(Triangle t, const Point& p) {
   const auto side = [](const Point& a, const Point& b, const Point& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -62,10 +62,13 @@ bool covers(Triangle t, const Point& p) {
   if (area == 0) return false;
   if (area < 0) std::swap(t[1], t[2]);  // clockwise in the window: left edges go up, top edges go right
   for (std::size_t k = 0; k < 3; ++k) {
-    const Point &a = t[k], &b = t[(k + 1) % 3];
+    const Point& a = t[k];
+    const Point& b = t[(k + 1) % 3];
     const std::int64_t inside = side(a, b, p);
-    const bool is_left = b.y < a.y, is_top = b.y == a.y && b.x > a.x;
-    if (inside < 0 || (inside == 0 && !is_left && !is_top)) return false;
+    const bool is_left = b.y < a.y;
+    const bool is_top = b.y == a.y && b.x > a.x;
+    const bool owns_edge = is_left || is_top;
+    if (inside < 0 || (inside == 0 && !owns_edge)) return false;
   }
   return true;
 }
@@ -75,9 +78,11 @@ int covered_samples(const Triangle& t, int x, int y, int samples) {
                     [&](const Point& offset) { return covers(t, sample_of(x, y, offset)); }));
 }
 bool in(const std::optional<Rect>& scissor, int x, int y) {
+  if (!scissor) return true;
   const int from_below = kHeight - 1 - y;
-  return !scissor || (x >= scissor->x && x < scissor->x + scissor->width && from_below >= scissor->y &&
-                      from_below < scissor->y + scissor->height);
+  const bool is_in_columns = x >= scissor->x && x < scissor->x + scissor->width;
+  const bool is_in_rows = from_below >= scissor->y && from_below < scissor->y + scissor->height;
+  return is_in_columns && is_in_rows;
 }
 std::uint32_t mean_level(int sum, int samples) {
   return static_cast<std::uint32_t>(std::floor(static_cast<double>(sum) / samples + 0.5));
@@ -88,8 +93,8 @@ Point random_point(Random& random) {
   return {below(random, kWidth * kScale), below(random, kHeight * kScale)};
 }
 
-// Tiny and large triangles, slivers, vertices on sample positions and tile borders, and triangles far larger
-// than the window.
+/// Tiny and large triangles, slivers, vertices on sample positions and tile borders, and triangles far larger
+/// than the window.
 Triangle random_triangle(Random& random, int turn) {
   const Point center = random_point(random);
   Triangle t;
@@ -128,13 +133,14 @@ TEST_P(FrameSamples, AreCoveredByAnExactRule) {
                            Renderer({.threads = 1, .tile_size = 64}),
                            Renderer({.threads = 1, .tile_size = 128})};
   Random random(31);
-  std::uint64_t in_part = 0;
+  std::uint64_t partly_covered = 0;
   for (int turn = 0; turn < 180; ++turn) {
     const Triangle triangle = random_triangle(random, turn);
     const MeshData mesh = mesh_of(triangle);
     DrawState white = unlit({1, 1, 1, 1});
     if (turn % 4 == 3) {
-      const int x = static_cast<int>(below(random, kWidth)), y = static_cast<int>(below(random, kHeight));
+      const int x = static_cast<int>(below(random, kWidth));
+      const int y = static_cast<int>(below(random, kHeight));
       white.scissor = Rect{x / 2, y / 2, 1 + static_cast<int>(below(random, kWidth)),
                            1 + static_cast<int>(below(random, kHeight))};
     }
@@ -143,7 +149,7 @@ TEST_P(FrameSamples, AreCoveredByAnExactRule) {
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
         const int covered = in(white.scissor, x, y) ? covered_samples(triangle, x, y, samples) : 0;
-        in_part += covered != 0 && covered != samples;
+        partly_covered += covered != 0 && covered != samples;
         shaded += covered != 0;
         expected.push_back(0x010101u * mean_level(255 * covered, samples));
       }
@@ -161,10 +167,11 @@ TEST_P(FrameSamples, AreCoveredByAnExactRule) {
           << ": " << std::hex << *differ.first << ", not " << *differ.second;
     }
   }
-  EXPECT_GE(in_part, samples > 1 ? 10000u : 0u);
+  EXPECT_GE(partly_covered, samples > 1 ? 10000u : 0u);
 }
 
-// A sheet with random inner vertices, drawn additively: samples covered twice or not at all become visible.
+// A sheet with random inner vertices is drawn with additive blending: samples covered twice or not at all
+// change the colour.
 TEST_P(FrameSamples, BelongToExactlyOneTriangleAtASharedEdge) {
   Renderer renderer({.threads = 1});
   Random random(32);
@@ -184,16 +191,19 @@ TEST_P(FrameSamples, BelongToExactlyOneTriangleAtASharedEdge) {
       }
     for (std::uint32_t row = 0; row < kRows; ++row)
       for (std::uint32_t column = 0; column < kColumns; ++column) {
-        const std::uint32_t a = row * (kColumns + 1) + column, b = a + 1, c = a + kColumns + 1, d = c + 1;
+        const std::uint32_t a = row * (kColumns + 1) + column;
+        const std::uint32_t b = a + 1;
+        const std::uint32_t c = a + kColumns + 1;
+        const std::uint32_t d = c + 1;
         if (random.next() % 2 == 0) mesh.indices.insert(mesh.indices.end(), {a, b, c, b, c, d});
         else mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
       }
     FrameBuffer buffer(format_of(samples));
     Frame frame(buffer);
-    DrawState grey = unlit({0.25f, 0.25f, 0.25f, 1});
-    grey.depth.enabled = false;
-    grey.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one};
-    frame.draw(mesh.view(), grey);
+    DrawState quarter = unlit({0.25f, 0.25f, 0.25f, 1});
+    quarter.depth.enabled = false;
+    quarter.blend = BlendState{.src = BlendFactor::one, .dst = BlendFactor::one};
+    frame.draw(mesh.view(), quarter);
     renderer.finish(frame);
     const std::vector<std::uint32_t> words = packed_colors(buffer);
     ASSERT_EQ(std::count(words.begin(), words.end(), 0x404040u), std::ptrdiff_t{kWidth} * kHeight)
@@ -204,15 +214,16 @@ TEST_P(FrameSamples, BelongToExactlyOneTriangleAtASharedEdge) {
 TEST_P(FrameSamples, AreKeptUntilTheEndOfTheFrame) {
   Renderer renderer({.threads = 1});
   Random random(33);
-  // Two triangles that share the long edge: in one frame the picture is white, in two frames the edge has
-  // become grey at the first resolve.
+  // Two triangles share the long edge. In one frame all their samples become white. In two frames the resolve
+  // of the first one stores the edge in grey, and the second one starts from that grey.
   for (const bool in_one_frame : {true, false}) {
     for (int turn = 0; turn < 10; ++turn) {
-      const Point a{below(random, 20 * kScale), below(random, kHeight * kScale)},
-          b{kWidth * kScale - below(random, 20 * kScale), below(random, kHeight * kScale)};
+      const Point a{below(random, 20 * kScale), below(random, kHeight * kScale)};
+      const Point b{kWidth * kScale - below(random, 20 * kScale), below(random, kHeight * kScale)};
       const Triangle upper{a, b, Point{kWidth * kScale / 2, -200 * kScale}};
       const Triangle lower{a, b, Point{kWidth * kScale / 2, 300 * kScale}};
-      const MeshData first = mesh_of(upper), second = mesh_of(lower);
+      const MeshData first = mesh_of(upper);
+      const MeshData second = mesh_of(lower);
       FrameBuffer buffer(format_of(samples));
       Frame frame(buffer);
       DrawState white = unlit({1, 1, 1, 1});
@@ -224,12 +235,12 @@ TEST_P(FrameSamples, AreKeptUntilTheEndOfTheFrame) {
       const std::vector<std::uint32_t> words = packed_colors(buffer);
       for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
-          const int before = covered_samples(upper, x, y, samples),
-                    after = covered_samples(lower, x, y, samples);
-          const std::uint32_t between = mean_level(255 * before, samples);
-          const std::uint32_t expected =
-              in_one_frame ? mean_level(255 * (before + after), samples)
-                           : mean_level(255 * after + static_cast<int>(between) * (samples - after), samples);
+          const int in_first = covered_samples(upper, x, y, samples);
+          const int in_second = covered_samples(lower, x, y, samples);
+          const int resolved = static_cast<int>(mean_level(255 * in_first, samples));
+          const int sum = in_one_frame ? 255 * (in_first + in_second)
+                                       : 255 * in_second + resolved * (samples - in_second);
+          const std::uint32_t expected = mean_level(sum, samples);
           ASSERT_EQ(words[static_cast<std::size_t>(y * kWidth + x)], 0x010101u * expected)
               << x << ", " << y << (in_one_frame ? " in one frame" : " in two frames");
         }
@@ -265,8 +276,8 @@ TEST_P(FrameSamples, StoredDepthAndStencilAreThoseOfSample0) {
         const bool covered = covers(triangle, first);
         ASSERT_EQ(stencil[i], covered ? 9 : 3) << x << ", " << y;
         const double level = covered ? std::floor(depth_at(first) * 0xffffff + 0.5) : 0xffffff;
-        ASSERT_NEAR(levels[i], level, covered ? 2 : 0)
-            << x << ", " << y;  // one pixel to the right is 16384 levels
+        // From pixel to pixel the depth rises by 16384 levels or more.
+        ASSERT_NEAR(levels[i], level, covered ? 2 : 0) << x << ", " << y;
       }
   }
 }

@@ -60,8 +60,10 @@ Stored drawn(const FrameBufferFormat& format, const MeshData& mesh, const DrawSt
 TEST(StencilTestColors, MatchThoseWithoutTheTest) {
   const MeshData mesh = some_triangles();
   std::vector<FrameBufferFormat> formats(5, {.width = 130, .height = 97});
-  formats[1].color_bits = 16, formats[1].depth = DepthFormat::float32;
-  formats[2].color_mode = ColorMode::index, formats[2].color_bits = 8,
+  formats[1].color_bits = 16;
+  formats[1].depth = DepthFormat::float32;
+  formats[2].color_mode = ColorMode::index;
+  formats[2].color_bits = 8;
   formats[2].depth = DepthFormat::unorm32;
   formats[3].depth = DepthFormat::none;
   formats[4].samples = 4;
@@ -112,8 +114,10 @@ TEST(StencilTestColors, MatchThoseWithoutTheTest) {
           const Stored marked = drawn(format, mesh, state, options, &marks);
           Stored expected = nothing;
           for (std::size_t i = 0; i < expected.words.size(); ++i)
-            if (stripes.words[i] != nothing.words[i])
-              expected.words[i] = fronts.words[i], expected.depth[i] = fronts.depth[i];
+            if (stripes.words[i] != nothing.words[i]) {
+              expected.words[i] = fronts.words[i];
+              expected.depth[i] = fronts.depth[i];
+            }
           EXPECT_EQ(marked.words, expected.words);
           EXPECT_EQ(marked.depth, expected.depth);
           EXPECT_NE(marked.words, nothing.words);

@@ -57,7 +57,7 @@ TEST(TexturePaths, ImmediatePathMatchesThePathWithOperations) {
   constexpr TextureFilter kMins[] = {
       TextureFilter::nearest, TextureFilter::linear, TextureFilter::linear_mipmap_linear,
       TextureFilter::linear_mipmap_nearest, TextureFilter::nearest_mipmap_linear};
-  std::uint64_t seen = 0;
+  std::uint64_t shaded = 0;
   for (int round = 0; round < 240; ++round) {
     const MeshData mesh = triangles(random);
     const TextureFilter min = kMins[round % 5];
@@ -87,9 +87,9 @@ TEST(TexturePaths, ImmediatePathMatchesThePathWithOperations) {
       ASSERT_EQ(at_once.words, expected.words) << where;
       ASSERT_EQ(at_once.shaded, expected.shaded) << where;
     }
-    seen += expected.shaded;
+    shaded += expected.shaded;
   }
-  EXPECT_GT(seen, 240u * kWidth * kHeight);
+  EXPECT_GT(shaded, 240u * kWidth * kHeight);
 }
 
 }  // namespace

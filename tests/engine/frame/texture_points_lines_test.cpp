@@ -15,7 +15,7 @@ namespace {
 using namespace test;
 
 constexpr int kSize = 96;
-constexpr std::uint32_t kGrey = 0x808080;
+constexpr std::uint32_t kGray = 0x808080;
 
 DrawState replacing(const Texture& texture) {
   DrawState state = unlit({1, 1, 1, 1});
@@ -33,8 +33,8 @@ std::vector<std::uint32_t> drawn(const MeshData& mesh, const DrawState& state, i
   Renderer({.threads = 1, .tile_size = tile_size}).finish(frame);
   return packed_colors(buffer);
 }
-std::ptrdiff_t not_grey(const std::vector<std::uint32_t>& words) {
-  return std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return (w & 0xffffff) != kGrey; });
+std::ptrdiff_t not_gray(const std::vector<std::uint32_t>& words) {
+  return std::count_if(words.begin(), words.end(), [](std::uint32_t w) { return (w & 0xffffff) != kGray; });
 }
 
 // A line from the window's centre, by its angle in degrees and its texels per pixel of length.
@@ -73,13 +73,13 @@ TEST(TexturedLines, UseTheLevelOfDetailAlongTheirLength) {
           if (blends)
             state.blend = BlendState{.src = BlendFactor::one,
                                      .dst = BlendFactor::one_minus_dst_alpha};  // destination alpha is 1
-          EXPECT_EQ(not_grey(drawn(spoke(degrees, 40, std::exp2(0.53), 64), state, samples)), 0) << where;
-          const std::ptrdiff_t seen =
-              not_grey(drawn(spoke(degrees, 40, std::exp2(0.47), 64), state, samples));
+          EXPECT_EQ(not_gray(drawn(spoke(degrees, 40, std::exp2(0.53), 64), state, samples)), 0) << where;
+          const std::ptrdiff_t found =
+              not_gray(drawn(spoke(degrees, 40, std::exp2(0.47), 64), state, samples));
           state.texture = nullptr;
-          const std::ptrdiff_t covered = not_grey(drawn(spoke(degrees, 40, 1, 64), state, samples));
+          const std::ptrdiff_t covered = not_gray(drawn(spoke(degrees, 40, 1, 64), state, samples));
           EXPECT_GE(covered, 20) << where;
-          EXPECT_EQ(seen, covered) << where;
+          EXPECT_EQ(found, covered) << where;
         }
 }
 
@@ -116,7 +116,7 @@ TEST(TexturedPoints, ShowOneTexelOfTheBaseLevel) {
             const std::uint32_t expected =
                 covered ? static_cast<std::uint32_t>(pixels[texel] << 16 | pixels[texel + 1] << 8 |
                                                      pixels[texel + 2])
-                        : kGrey;
+                        : kGray;
             ASSERT_EQ(words[static_cast<std::size_t>(y * kSize + x)] & 0xffffff, expected)
                 << x << " " << y << ", lit " << lit << ", shading " << static_cast<int>(shading);
           }
@@ -231,7 +231,7 @@ TEST(TexturedOutlines, MatchTexturedLinesAndPoints) {
       const std::vector<std::uint32_t> expected = drawn(others, state, round % 3 == 0 ? 4 : 1);
       DrawState outlined = state;
       outlined.front_mode = outlined.back_mode = mode;
-      EXPECT_GE(not_grey(expected), 20);
+      EXPECT_GE(not_gray(expected), 20);
       EXPECT_EQ(drawn(mesh, outlined, round % 3 == 0 ? 4 : 1, round % 4 == 1 ? 32 : 128), expected)
           << "round " << round << ", mode " << static_cast<int>(mode);
     }

@@ -28,7 +28,8 @@ struct Setting {
   std::vector<Light> lights{Light{}};
   LightModel model{};
   DrawState state{};
-  bool normals = true, colors = false;
+  bool normals = true;
+  bool colors = false;
 };
 
 template <class Ask>

@@ -25,8 +25,8 @@ struct Misuse {
 const FrameBufferFormat kRgb{.width = 24, .height = 16, .stencil_bits = 3};
 const FrameBufferFormat kIndex{.width = 24, .height = 16, .color_mode = ColorMode::index, .color_bits = 4};
 const FrameBufferFormat kAccumulating{.width = 24, .height = 16, .accumulation_bits = 16};
-const FrameBufferFormat kGrey1{.width = 24, .height = 16, .color_bits = 1};
-const FrameBufferFormat kGrey2{.width = 24, .height = 16, .color_bits = 2};
+const FrameBufferFormat kGray1{.width = 24, .height = 16, .color_bits = 1};
+const FrameBufferFormat kGray2{.width = 24, .height = 16, .color_bits = 2};
 const FrameBufferFormat kBare{.width = 24, .height = 16, .depth = DepthFormat::none, .stencil_bits = 0};
 
 // A valid frame: half of it recorded before the misuse, half after it.
@@ -174,9 +174,9 @@ TEST(ErrorsOfFrames, NameInvalidAccumulations) {
                 });
   expect_errors(kRgb, {accumulate("no buffer", {}, {"Frame::accumulate", "no accumulation buffer"})});
   expect_errors(kIndex, {accumulate("indices", {}, {"Frame::accumulate", "indices"})});
-  FrameBufferFormat grey = kGrey2;
-  grey.accumulation_bits = 16;
-  expect_errors(grey, {accumulate("a split mask",
+  FrameBufferFormat gray = kGray2;
+  gray.accumulation_bits = 16;
+  expect_errors(gray, {accumulate("a split mask",
                                   {.op = AccumOp::return_color, .color_mask = {true, true, false, true}},
                                   {"Frame::accumulate", "luminance", "all or none"})});
 }
@@ -365,7 +365,7 @@ TEST(ErrorsOfFrames, NameColorMasksThatSplitAPackedValue) {
   const auto masked = [](std::array<bool, 4> mask) {
     return state("a split mask", [mask](DrawState& s) { s.color_mask = mask; }, {"mask", "all or none"});
   };
-  for (const FrameBufferFormat& format : {kIndex, kGrey1, kGrey2}) {
+  for (const FrameBufferFormat& format : {kIndex, kGray1, kGray2}) {
     expect_errors(format, {masked({true, false, false, true}), masked({true, true, false, true}),
                            masked({false, false, true, false})});
     FrameBuffer buffer(format);

@@ -137,7 +137,8 @@ TEST(MeshArraysErrors, NameTheMismatch) {
        "stride of 8 bytes for positions"},
       {"four components",
        [](Mesh& mesh, const float* p, const Meshes&) {
-         mesh.positions = {p, 6, 12}, mesh.position_components = 4;
+         mesh.positions = {p, 6, 12};
+         mesh.position_components = 4;
        },
        "at least 16"},
       {"odd address",
@@ -172,7 +173,8 @@ TEST(MeshArraysErrors, NameTheMismatch) {
        "239 bytes of colors, its 60 vertices need 240"},
       {"both",
        [](Mesh& mesh, const float*, const Meshes& n) {
-         mesh.colors = n.bytes, mesh.colors.floats = n.colors;
+         mesh.colors = n.bytes;
+         mesh.colors.floats = n.colors;
        },
        "colors twice"},
       {"packed with a stride",
@@ -182,12 +184,14 @@ TEST(MeshArraysErrors, NameTheMismatch) {
        "180 packed floats of normals and also 60 vertices"},
       {"packed bytes with a stride",
        [](Mesh& mesh, const float*, const Meshes& n) {
-         mesh.colors = n.bytes, mesh.colors.stride_bytes = 4096;
+         mesh.colors = n.bytes;
+         mesh.colors.stride_bytes = 4096;
        },
        "240 packed bytes of colors and also 0 vertices with a stride of 4096 bytes"},
       {"stride of no bytes",
        [](Mesh& mesh, const float*, const Meshes& n) {
-         mesh.colors = n.colors, mesh.colors.stride_bytes = 32;
+         mesh.colors = n.colors;
+         mesh.colors.stride_bytes = 32;
        },
        "a stride of 32 bytes for colors, but no bytes of colors"},
       {"bits", [](Mesh& mesh, const float*, const Meshes&) { mesh.indices.bits = 8; },
@@ -215,10 +219,10 @@ TEST(MeshIndices, InvalidOnesAreNamed) {
     return all;
   };
   const auto good = indices(std::uint32_t{}, 90'000, 90'000, std::uint32_t{});
-  const auto last = indices(std::uint32_t{}, 90'000, 89'999, std::uint32_t{3}),
-             middle = indices(std::uint32_t{}, 90'000, 50'000, 0xffff'ffffu);
-  const auto first = indices(std::uint16_t{}, 90'000, 0, std::uint16_t{0xffff}),
-             few = indices(std::uint16_t{}, 300, 155, std::uint16_t{4});
+  const auto last = indices(std::uint32_t{}, 90'000, 89'999, std::uint32_t{3});
+  const auto middle = indices(std::uint32_t{}, 90'000, 50'000, 0xffff'ffffu);
+  const auto first = indices(std::uint16_t{}, 90'000, 0, std::uint16_t{0xffff});
+  const auto few = indices(std::uint16_t{}, 300, 155, std::uint16_t{4});
   const struct {
     IndexArray indices;
     const char* says;

@@ -89,29 +89,17 @@ TEST(PlanarShadow, DoesNotDependOnTheNormalsSignOrLength) {
   }
 }
 
-// The explicit matrix for a direction of travel (dx, dy, dz), which points away from the light.
+// The explicit matrix for light that travels in the direction (dx, dy, dz), away from its source.
 TEST(PlanarShadow, MatchesTheFormulaForADirection) {
   const double a = 0.5, b = 2, c = -1, d = 3;
   const double dx = -1, dy = -4, dz = 0.5;
   const double weight = a * dx + b * dy + c * dz;
-  const double rows[16] = {b * dy + c * dz,
-                           -b * dx,
-                           -c * dx,
-                           -d * dx,  //
-                           -a * dy,
-                           a * dx + c * dz,
-                           -c * dy,
-                           -d * dy,  //
-                           -a * dz,
-                           -b * dz,
-                           a * dx + b * dy,
-                           -d * dz,  //
-                           0,
-                           0,
-                           0,
-                           weight};
+  const double rows[4][4] = {{b * dy + c * dz, -b * dx, -c * dx, -d * dx},
+                             {-a * dy, a * dx + c * dz, -c * dy, -d * dy},
+                             {-a * dz, -b * dz, a * dx + b * dy, -d * dz},
+                             {0, 0, 0, weight}};
   const Matrix m = planar_shadow({a, b, c, d}, light_at(1, 4, -0.5f, 0));
-  for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(m.m[i], rows[i] / weight, 1e-15) << i;
+  for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(m.m[i], rows[i / 4][i % 4] / weight, 1e-15) << i;
 }
 
 MeshData random_caster(Random& random) {
@@ -191,10 +179,10 @@ TEST(PlanarShadow, GrowsWithTheDistanceFromAPointLight) {
   Renderer({.threads = 1}).finish(frame);
   const std::vector<std::uint32_t> words = packed_colors(buffer);
   for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x)
-      EXPECT_EQ(words[static_cast<std::size_t>(64 * y + x)],
-                x >= 16 && x < 48 && y >= 24 && y < 40 ? 0u : 0xffffffu)
-          << x << ' ' << y;
+    for (int x = 0; x < 64; ++x) {
+      const bool is_in_shadow = x >= 16 && x < 48 && y >= 24 && y < 40;
+      EXPECT_EQ(words[static_cast<std::size_t>(64 * y + x)], is_in_shadow ? 0u : 0xffffffu) << x << ' ' << y;
+    }
 }
 
 // The object's transform applies first, then the shadow in world space.

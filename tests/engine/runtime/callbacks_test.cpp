@@ -336,7 +336,8 @@ TEST(Progress, CancelledFrameHoldsOnlyOldAndNewTiles) {
       return s;
     }());
   EXPECT_THROW(renderer.finish(frame), Cancelled);
-  std::size_t before = 0, after = 0;
+  std::size_t before = 0;
+  std::size_t after = 0;
   for (const std::uint32_t word : packed_colors(buffer)) {
     ASSERT_TRUE(word == 0xff0000u || word == 0x00ff00u) << std::hex << word;
     ++(word == 0xff0000u ? before : after);

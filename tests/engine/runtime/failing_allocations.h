@@ -29,8 +29,10 @@ namespace tessera::test {
 
 /// Number of allocations, on any thread, that succeed before one fails; negative: no limit.
 extern std::atomic<long> allocations_left;
-/// Bytes allocated now, and their maximum since it was last set, as rounded up by the allocator.
-extern std::atomic<long> live_bytes, peak_live_bytes;
+/// Bytes allocated now, as rounded up by the allocator.
+extern std::atomic<long> live_bytes;
+/// Maximum of live_bytes since it was last set.
+extern std::atomic<long> peak_live_bytes;
 
 inline void refuse_lost(int at) { ADD_FAILURE() << "allocation " << at << " was ignored"; }
 

@@ -26,11 +26,11 @@ struct Scattered {
   Scattered() {
     Random random(5);
     for (int i = 0; i < 3000 * 9; i += 9) {
-      const float x = random.between(-1, 1), y = random.between(-1, 1);
-      for (const float offset : {0.0f, 0.1f, 0.0f, 0.1f, 0.1f, 0.0f, 0.0f, 0.0f, 0.1f})
-        positions.push_back(positions.size() % 3 == 0   ? x + offset
-                            : positions.size() % 3 == 1 ? y + offset
-                                                        : 0.5f);
+      const float x = random.between(-1, 1);
+      const float y = random.between(-1, 1);
+      positions.insert(positions.end(), {x + 0.0f, y + 0.1f, 0.5f});
+      positions.insert(positions.end(), {x + 0.1f, y + 0.1f, 0.5f});
+      positions.insert(positions.end(), {x + 0.0f, y + 0.0f, 0.5f});
     }
   }
 };
@@ -92,7 +92,10 @@ void expect_that_passes_wait(const Tasks& tasks) {
   int pass = 0;
   for (const FrameTask& task : tasks) {
     ASSERT_GE(task.pass, pass);
-    if (task.pass != pass) pass = task.pass, all_ended = ended;
+    if (task.pass != pass) {
+      pass = task.pass;
+      all_ended = ended;
+    }
     EXPECT_GE(task.begin, all_ended) << "pass " << pass;
     ended = std::max(ended, task.end);
   }

@@ -25,14 +25,20 @@ using namespace test;
 std::vector<FrameBufferFormat> formats() {
   const FrameBufferFormat base{.width = 40, .height = 34, .accumulation_bits = 16};
   std::vector<FrameBufferFormat> all(4, base);
-  all[1].samples = 4, all[1].depth = DepthFormat::float32, all[1].alpha_bits = 8,
+  all[1].samples = 4;
+  all[1].depth = DepthFormat::float32;
+  all[1].alpha_bits = 8;
   all[1].accumulation_bits = 32;
-  all[2].color_mode = ColorMode::index, all[2].color_bits = 4, all[2].dither = Dither::bayer2,
+  all[2].color_mode = ColorMode::index;
+  all[2].color_bits = 4;
+  all[2].dither = Dither::bayer2;
   all[2].accumulation_bits = 0;
   all[2].palette = {{0, 0, 0, 1},
                     {0.3f, 0.7f, 0.1f, 1},
                     {1, 1, 1, 1}};  // the search of a large palette makes thousands of allocations
-  all[3].color_bits = 2, all[3].depth = DepthFormat::none, all[3].stencil_bits = 0;
+  all[3].color_bits = 2;
+  all[3].depth = DepthFormat::none;
+  all[3].stencil_bits = 0;
   return all;
 }
 

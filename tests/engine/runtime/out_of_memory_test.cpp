@@ -12,7 +12,8 @@
 #if TESSERA_CAN_FAIL_ALLOCATIONS
 
 std::atomic<long> tessera::test::allocations_left = -1;
-std::atomic<long> tessera::test::live_bytes = 0, tessera::test::peak_live_bytes = 0;
+std::atomic<long> tessera::test::live_bytes = 0;
+std::atomic<long> tessera::test::peak_live_bytes = 0;
 
 namespace {
 using tessera::test::allocations_left, tessera::test::live_bytes, tessera::test::peak_live_bytes;

@@ -51,7 +51,7 @@ void expect_steady(
     scene.record(frame);
     keeps_planes ? renderer.finish(frame) : renderer.finish(frame, target);
   };
-  EXPECT_GT(allocations_of(draw), 10) << "the first frame";  // proves that allocations are counted
+  EXPECT_GT(allocations_of(draw), 10) << "allocations of the first frame are counted";
   draw();
   before_the_last();
   EXPECT_EQ(allocations_of(draw), 0);

@@ -1,3 +1,4 @@
+// A scene whose bins overflow.
 #pragma once
 
 #include "tests/engine/frame/pixel_support.h"
@@ -13,11 +14,10 @@ struct BinOverflowScene {
   MeshData lines;
   MeshData points;
   explicit BinOverflowScene(FrameBufferFormat f, int count = 9000) : format(std::move(f)) {
+    lines.primitive = Primitive::lines;
+    points.primitive = Primitive::points;
     Random random(3);
     for (MeshData* mesh : {&triangles, &lines, &points}) {
-      mesh->primitive = mesh == &triangles ? Primitive::triangles
-                        : mesh == &lines   ? Primitive::lines
-                                           : Primitive::points;
       for (int i = 0; i < count; ++i) {
         for (int c = 0; c < 3; ++c) mesh->positions.push_back(random.between(-1.2f, 1.2f));
         for (int c = 0; c < 4; ++c) mesh->colors.push_back(random.between(0, 1));

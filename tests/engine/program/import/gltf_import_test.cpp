@@ -126,9 +126,9 @@ TEST_F(GltfImport, FlipsTextureCoordinates) {
   ASSERT_EQ(model.mesh.texcoords.size(), 6u);
   const float expected[3][2] = {{1, 0}, {0.5f, 0.5f}, {0, 1}};
   for (std::size_t v = 0; v < 3; ++v) {
-    const std::size_t given = model.mesh.positions[3 * v] == 1       ? 1
-                              : model.mesh.positions[3 * v + 1] == 1 ? 2
-                                                                     : 0;
+    std::size_t given = 0;  // vertex of the file with this position
+    if (model.mesh.positions[3 * v] == 1) given = 1;
+    else if (model.mesh.positions[3 * v + 1] == 1) given = 2;
     EXPECT_FLOAT_EQ(model.mesh.texcoords[2 * v], expected[given][0]);
     EXPECT_FLOAT_EQ(model.mesh.texcoords[2 * v + 1], expected[given][1]);
   }

@@ -20,12 +20,13 @@ Position position(const MeshData& mesh, std::size_t vertex) {
   return {mesh.positions[3 * vertex], mesh.positions[3 * vertex + 1], mesh.positions[3 * vertex + 2]};
 }
 
-Vec3 face_normal(const MeshData& mesh, std::size_t triangle) {  // its length is twice the area
-  const Position a = position(mesh, mesh.indices[3 * triangle]),
-                 b = position(mesh, mesh.indices[3 * triangle + 1]),
-                 c = position(mesh, mesh.indices[3 * triangle + 2]);
-  const double u[3] = {double{b[0]} - a[0], double{b[1]} - a[1], double{b[2]} - a[2]},
-               v[3] = {double{c[0]} - a[0], double{c[1]} - a[1], double{c[2]} - a[2]};
+// The length is twice the triangle's area.
+Vec3 face_normal(const MeshData& mesh, std::size_t triangle) {
+  const Position a = position(mesh, mesh.indices[3 * triangle]);
+  const Position b = position(mesh, mesh.indices[3 * triangle + 1]);
+  const Position c = position(mesh, mesh.indices[3 * triangle + 2]);
+  const double u[3] = {double{b[0]} - a[0], double{b[1]} - a[1], double{b[2]} - a[2]};
+  const double v[3] = {double{c[0]} - a[0], double{c[1]} - a[1], double{c[2]} - a[2]};
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 

@@ -11,7 +11,8 @@ namespace {
 using test::error_of;
 
 TEST(PictureHashLists, RoundTrip) {
-  const PictureHash a{0x0123456789abcdef, 0, 2, 3}, b{1, 0xffffffffffffffff, 0, 0};
+  const PictureHash a{0x0123456789abcdef, 0, 2, 3};
+  const PictureHash b{1, 0xffffffffffffffff, 0, 0};
   EXPECT_EQ(to_text(a), "0123456789abcdef 0000000000000000 0000000000000002 0000000000000003");
   const PictureHashes list = parse_picture_hashes("a " + to_text(a) + "\nb_2 " + to_text(b), "list");
   ASSERT_EQ(list.size(), 2u);

@@ -227,9 +227,9 @@ TEST(SceneOverrides, PaletteMakesIndexBuffer) {
 TEST(SceneOverrides, RejectsPaletteThatExceedsColorBits) {
   Scene scene = builtin_scene();
   EXPECT_THROW(apply({.color_bits = 4, .palette = "vga256"}, scene), Error);
-  Scene grey = builtin_scene();
-  apply({.color_bits = 3, .palette = "gray"}, grey);
-  EXPECT_EQ(grey.framebuffer.palette.size(), 8u);
+  Scene gray = builtin_scene();
+  apply({.color_bits = 3, .palette = "gray"}, gray);
+  EXPECT_EQ(gray.framebuffer.palette.size(), 8u);
   Scene own = parse(
       R"("framebuffer": {"color": {"mode": "index", "bits": 2}, "palette": [[0,0,0],[1,0,0],[1,1,1]]})");
   EXPECT_THROW(apply({.color_bits = 1}, own), Error);

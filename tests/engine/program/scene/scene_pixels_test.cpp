@@ -90,18 +90,18 @@ TEST(ScenePixels, ReadsImageOnceWithTopRowFirst) {
 
 // Colours are not multiplied by alpha.
 TEST(ScenePixels, ImagesKeepStraightAlpha) {
-  const Picture grey = read_picture(TESSERA_TEST_SCENES "/textures/letter_grey_alpha.png");
+  const Picture gray = read_picture(TESSERA_TEST_SCENES "/textures/letter_grey_alpha.png");
   const Picture color = read_picture(TESSERA_TEST_SCENES "/textures/letter_rgba.png");
   bool clear = false;
   bool between = false;
   bool bright = false;
-  for (const Picture* picture : {&grey, &color})
+  for (const Picture* picture : {&gray, &color})
     for (std::size_t i = 0; i < picture->rgba.size(); i += 4) {
       const std::uint8_t alpha = picture->rgba[i + 3];
       clear |= alpha == 0;
       between |= alpha > 0 && alpha < 255;
       bright |= alpha < 255 && picture->rgba[i] > alpha;
-      if (picture == &grey) {
+      if (picture == &gray) {
         EXPECT_EQ(picture->rgba[i], picture->rgba[i + 2]);
       }
     }

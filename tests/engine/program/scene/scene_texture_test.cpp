@@ -92,7 +92,8 @@ TEST_F(SceneTexture, ReadsFileOncePerAnimation) {
       write("s.json",
             R"({"tessera": 1, "textures": {"t": {"file": "a.ppm"}, "u": {"file": "a.ppm", "mag": "nearest"}},
     "light_model": {"ambient": [{"keys": [[0, 0], [1, 1]]}, 0, 0, 1]}})"));
-  const Scene first = file.at(0), last = file.at(1);
+  const Scene first = file.at(0);
+  const Scene last = file.at(1);
   EXPECT_EQ(first.textures[0], last.textures[0]);
   EXPECT_EQ(first.textures[1], last.textures[1]);
   EXPECT_NE(first.textures[0], first.textures[1]);

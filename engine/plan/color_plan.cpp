@@ -1,0 +1,279 @@
+#include "engine/plan/color_plan.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <glm/mat4x4.hpp>
+
+#include "engine/plan/eye_space.h"
+#include "engine/record/matrix.h"
+#include "shading/fragment_scalar.h"
+
+namespace tessera::detail {
+namespace {
+
+Rgb rgb(const Color& c) { return {c.r, c.g, c.b}; }
+
+SurfaceMaterial surface(const Material& m) {
+  return {rgb(m.ambient), rgb(m.diffuse), rgb(m.specular), rgb(m.emission), m.shininess};
+}
+
+TrackedColors tracked_colors(ColorMaterial mode) {
+  switch (mode) {
+    case ColorMaterial::none: return {};
+    case ColorMaterial::ambient_and_diffuse: return {.ambient = true, .diffuse = true};
+    case ColorMaterial::diffuse: return {.diffuse = true};
+    case ColorMaterial::ambient: return {.ambient = true};
+    case ColorMaterial::emission: return {.emission = true};
+    case ColorMaterial::specular: return {.specular = true};
+  }
+  return {};
+}
+
+const Material& back_material(const DrawState& state) {
+  return state.back_material ? *state.back_material : state.material;
+}
+
+/// Notes colour inputs of the mesh and the materials that this draw ignores.
+void note_unused_colors(const DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
+                        const EffectNotes& notes) {
+  const DrawState& state = draw.state;
+  const bool has_colors = draw.mesh.has_colors();
+  if (draw.mesh.color_indices && !plan.uses_color_indices)
+    notes.skipped(Effect::color_indices, layout.index ? EffectReason::draw_is_lit : EffectReason::rgb_buffer);
+  if (has_colors && plan.uses_color_indices)
+    notes.skipped(Effect::vertex_colors, EffectReason::draw_has_color_indices);
+  if (!state.lighting) return;
+  if (has_colors && state.color_material == ColorMaterial::none)
+    notes.skipped(Effect::vertex_colors, EffectReason::color_material_none);
+  if (has_colors && state.color_material != ColorMaterial::none && plan.only_indices())
+    notes.skipped(Effect::vertex_colors, EffectReason::material_has_index_ramp);
+  const bool has_index_ramp =
+      state.material.index_ramp || (plan.two_sided && back_material(state).index_ramp);
+  if (has_index_ramp && !layout.index) notes.skipped(Effect::index_lighting, EffectReason::rgb_buffer);
+}
+
+void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
+                 const EffectNotes& notes) {
+  const LightModel& model = draw.scene_state->light_model;
+  const glm::dmat4 view = to_glm(draw.scene_state->camera.view);
+  plan.lights.clear();
+  for (const Light& light : draw.scene_state->lights) plan.lights.push_back(eye_light(light, view));
+  const TrackedColors tracked =
+      draw.mesh.has_colors() ? tracked_colors(draw.state.color_material) : TrackedColors{};
+  const bool unit_normals = draw.state.normalize || draw.state.shading == Shading::phong;
+  const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == SpecularModel::phong,
+                               unit_normals};
+  const auto set_program = [&](LightingProgram& program, const Material& material, bool index,
+                               const EffectNotes& face_notes) {
+    if (index) {
+      face_notes.active(Effect::index_lighting);
+      program = plan_index_lighting({*material.index_ramp, material.shininess, layout.index_modulus()},
+                                    plan.lights, lighting, face_notes, std::move(program.terms));
+    } else {
+      program = plan_lighting(surface(material), tracked, plan.lights, lighting, face_notes,
+                              std::move(program.terms));
+    }
+  };
+  set_program(plan.front, draw.state.material, plan.is_index[0], notes);
+  if (plan.two_sided) {
+    notes.active(Effect::two_sided_lighting);
+    set_program(plan.back, back_material(draw.state), plan.is_index[1], notes.for_back_faces());
+    plan.back.negate_normal = true;
+  }
+  plan.uses_vertex_colors = tracked.any() && !plan.only_indices();
+  plan.alpha[0] = clamp_unit(draw.state.material.diffuse.a);
+  plan.alpha[1] = plan.two_sided ? clamp_unit(back_material(draw.state).diffuse.a) : plan.alpha[0];
+  plan.vertex_alpha = tracked.diffuse && !plan.only_indices();
+}
+
+/// The index that a program without light terms yields.
+float unlit_index(const LightingProgram& program) {
+  return masked_index(std::min(program.indexes[0], program.indexes[2]), program.index_modulus);
+}
+
+/// No light depends on the surface, and both faces have the same colour.
+bool has_constant_color(const DrawPlan& plan) {
+  const bool color_varies = !plan.front.terms.empty() || plan.front.tracked;
+  const bool alpha_varies = plan.float_colors && plan.vertex_alpha;
+  if (color_varies || alpha_varies) return false;
+  if (!plan.two_sided) return true;
+  if (!plan.back.terms.empty() || plan.is_index[0] != plan.is_index[1]) return false;
+  if (plan.only_indices()) return unlit_index(plan.back) == unlit_index(plan.front);
+  return plan.back.base == plan.front.base && plan.alpha[0] == plan.alpha[1];
+}
+
+/// The stored value depends on the value before, or on the position of the pixel, or it includes alpha.
+bool prevents_deferral(const DrawPlan& plan, const ColorLayout& layout) {
+  const bool reads_stored = plan.ops.blend || plan.ops.logic != LogicOp::copy;
+  const bool stores_alpha = layout.alpha_bits > 0;
+  return plan.has_ops && (reads_stored || plan.ops.dither || stores_alpha);
+}
+
+/// Alpha for the alpha test of a draw that stores no colour. Lighting takes alpha from the diffuse colour, so
+/// no light is evaluated.
+void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
+  const DrawState& state = draw.state;
+  plan.vertex_alpha = plan.uses_vertex_colors =
+      draw.mesh.has_colors() && (!state.lighting || tracked_colors(state.color_material).diffuse);
+  plan.alpha[0] = clamp_unit(state.material.diffuse.a);
+  plan.alpha[1] = state.lighting && draw.scene_state->light_model.two_sided
+                      ? clamp_unit(back_material(state).diffuse.a)
+                      : plan.alpha[0];
+  plan.source = ColorSource::constant;
+  if (!plan.vertex_alpha) return;
+  plan.source = ColorSource::interpolated;
+  plan.flat = state.shading == Shading::flat || plan.topology == Topology::points;
+  plan.clamps_vertex_alpha = plan.flat || !state.lighting || state.shading != Shading::phong;
+  plan.scaled_colors = false;
+}
+
+/// One colour for the draw. Texels are applied at the pixels; a texture of one colour is folded in here.
+void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& layout) {
+  plan.constant_color = {clamp_unit(color[0]), clamp_unit(color[1]), clamp_unit(color[2])};
+  if (plan.is_index[0] || plan.texture.use == TexturePlan::Use::none) return;
+  if (plan.texture.use == TexturePlan::Use::texels) {
+    plan.textures_per_pixel = true;
+    plan.scaled_colors = false;
+    plan.deferred = !prevents_deferral(plan, layout);
+    return;
+  }
+  const auto [r, g, b, a] = texture_env_reference(
+      plan.texture.texture,
+      {plan.constant_color[0], plan.constant_color[1], plan.constant_color[2], plan.alpha[0]},
+      plan.texture.texture.texel);
+  plan.constant_color = {r, g, b};
+  plan.alpha[0] = plan.alpha[1] = a;
+}
+
+/// Decides whether the texture is applied per pixel.
+/// @param at_vertices  colours are computed at the vertices and interpolated, never extrapolated
+void plan_texturing(DrawPlan& plan, bool at_vertices) {
+  plan.textures_per_pixel =
+      plan.texture.use != TexturePlan::Use::none && !(at_vertices && plan.texture.is_affine());
+}
+
+/// Plans a draw that stores no colour. Its alpha test may still need alpha.
+void plan_unstored_color(DrawPlan& plan, const RecordedDraw& draw, const EffectNotes& notes) {
+  plan.source = ColorSource::none;
+  if (plan.ops.alpha_test) plan_alpha(plan, draw);
+  plan_texturing(plan, false);
+  notes.skipped(Effect::shading, EffectReason::no_color_stored);
+}
+
+/// Plans what colours are computed from: colour indices, vertex colours, or materials and lights.
+/// @return  the colour before texturing, if the draw has only one
+std::optional<Rgb> plan_color_inputs(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
+                                     const EffectNotes& notes) {
+  const DrawState& state = draw.state;
+  note_unused_colors(plan, draw, layout, notes);
+  if (state.lighting) {
+    plan_lights(plan, draw, layout, notes);
+    plan.lit = !has_constant_color(plan);
+    if (plan.lit) return std::nullopt;
+    plan.two_sided = false;
+    if (plan.is_index[0]) plan.constant_index = unlit_index(plan.front);
+    notes.skipped(Effect::lighting, EffectReason::independent_of_surface);
+    return plan.front.base;
+  }
+  notes.skipped(Effect::lighting, EffectReason::disabled);
+  if (plan.uses_color_indices) {
+    notes.active(Effect::color_indices);
+    return std::nullopt;
+  }
+  plan.uses_vertex_colors = plan.vertex_alpha = draw.mesh.has_colors();
+  plan.alpha[0] = plan.alpha[1] = clamp_unit(state.material.diffuse.a);
+  if (plan.uses_vertex_colors) {
+    notes.active(Effect::vertex_colors);
+    return std::nullopt;
+  }
+  notes.skipped(Effect::vertex_colors, EffectReason::not_in_mesh);
+  return rgb(state.material.diffuse);
+}
+
+/// Phong shading: lighting at the pixels.
+void plan_pixel_lighting(DrawPlan& plan, const ColorLayout& layout, const EffectNotes& notes) {
+  plan.source = ColorSource::per_pixel;
+  plan.deferred = !prevents_deferral(plan, layout);
+  plan_texturing(plan, false);
+  notes.active(Effect::shading, plan.deferred ? EffectReason::per_pixel : EffectReason::per_fragment);
+}
+
+/// One colour per triangle, line or point.
+void plan_flat_colors(DrawPlan& plan, const EffectNotes& notes) {
+  // Packed colors cannot be textured: colours are kept as floats, as for fragment operations.
+  if (plan.texture.use == TexturePlan::Use::texels)
+    plan.has_ops = plan.float_colors = plan.textures_per_pixel = true;
+  const bool by_triangle = plan.face_normals || plan.provoking_vertex_elsewhere;
+  plan.source = by_triangle ? ColorSource::per_triangle_packed : ColorSource::per_vertex_packed;
+  if (plan.float_colors) {
+    plan.source = ColorSource::interpolated;
+    plan.flat = true;
+    plan.scaled_colors = false;
+  }
+  EffectReason rate = EffectReason::per_vertex;
+  if (plan.topology == Topology::points) rate = EffectReason::per_point;
+  else if (plan.face_normals) rate = EffectReason::per_face;
+  else if (by_triangle) rate = EffectReason::per_provoking_vertex;
+  notes.active(Effect::shading, rate);
+}
+
+/// Colours of the vertices, interpolated.
+void plan_interpolated_colors(DrawPlan& plan, const ColorLayout& layout, bool sampled,
+                              const EffectNotes& notes) {
+  plan.source = ColorSource::interpolated;
+  const bool inside_triangles = plan.topology == Topology::triangles && !sampled;
+  plan_texturing(plan, inside_triangles && !plan.outlines);  // otherwise colours may be extrapolated
+  // Greys and palette entries are not linear in the colour: they are evaluated per visible pixel. So is a
+  // colour that the samples of a pixel share, unless it is merely stored.
+  const bool is_linear = !layout.index && !layout.luminance;
+  const bool needs_floats = plan.float_colors || plan.textures_per_pixel;
+  plan.scaled_colors = is_linear && inside_triangles && !needs_floats;
+  const bool merely_stored = !plan.has_ops && plan.write_mask == 0xffffffffu;
+  const bool modifies_shared_color = sampled && !merely_stored;
+  const bool shades_visible = !is_linear || plan.textures_per_pixel || modifies_shared_color;
+  plan.deferred = shades_visible && !prevents_deferral(plan, layout);
+  notes.active(Effect::shading,
+               plan.deferred ? EffectReason::interpolated_per_pixel : EffectReason::interpolated);
+}
+
+void note_generated_normals(const DrawPlan& plan, const EffectNotes& notes) {
+  if (plan.topology != Topology::triangles)
+    return notes.skipped(Effect::generated_normals, EffectReason::no_faces);
+  notes.active(Effect::generated_normals,
+               plan.smooth_normals ? EffectReason::mean_normals : EffectReason::face_normals);
+}
+
+}  // namespace
+
+void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout) {
+  const DrawState& state = draw.state;
+  if (plan.write_mask == 0) return;
+  plan.two_sided = state.lighting && draw.scene_state->light_model.two_sided && plan.keep_back;
+  if (!layout.index) return;
+  plan.uses_color_indices = !state.lighting && draw.mesh.color_indices;
+  plan.is_index[0] = plan.uses_color_indices || (state.lighting && state.material.index_ramp);
+  plan.is_index[1] = plan.two_sided ? back_material(state).index_ramp.has_value() : plan.is_index[0];
+}
+
+void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, bool sampled,
+                const EffectNotes& notes) {
+  if (plan.write_mask == 0) return plan_unstored_color(plan, draw, notes);
+  if (const std::optional<Rgb> color = plan_color_inputs(plan, draw, layout, notes)) {
+    notes.active(Effect::shading, EffectReason::per_draw);
+    return set_constant_color(plan, *color, layout);
+  }
+  const Shading shading = draw.state.shading;
+  const bool generates_normals = plan.needs_normal() && !draw.mesh.normals;
+  plan.face_normals = generates_normals && shading == Shading::flat && plan.topology == Topology::triangles;
+  plan.smooth_normals = generates_normals && !plan.face_normals;
+  const bool phong = shading == Shading::phong && plan.lit;
+  plan.front.renormalize = plan.back.renormalize = phong;
+  const bool one_color_each = shading == Shading::flat || plan.topology == Topology::points;
+  if (one_color_each) plan_flat_colors(plan, notes);
+  else if (phong) plan_pixel_lighting(plan, layout, notes);
+  else plan_interpolated_colors(plan, layout, sampled, notes);
+  if (generates_normals) note_generated_normals(plan, notes);
+}
+
+}  // namespace tessera::detail
