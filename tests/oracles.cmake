@@ -13,7 +13,6 @@ if(reference_sources)
   target_include_directories(tessera_reference SYSTEM PRIVATE ${TESSERA_TINYOBJ_INCLUDE})
   target_compile_definitions(tessera_reference PRIVATE
     TESSERA_TEAPOT_PATCHES="${PROJECT_SOURCE_DIR}/engine/program/scenes/teapot_patches.txt")
-  tessera_precompile(tessera_reference <nlohmann/json.hpp>)
   target_compile_options(tessera_reference PRIVATE -O2)  # scalar double precision: too slow without optimization, also in sanitizer builds
 endif()
 

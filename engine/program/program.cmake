@@ -36,7 +36,6 @@ target_include_directories(tessera_scene INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(tessera_scene PRIVATE
   tessera_options TBB::tbb nlohmann_json::nlohmann_json tinyobjloader::tinyobjloader ${CMAKE_DL_LIBS})
 
-tessera_precompile(tessera_scene <nlohmann/json.hpp>)
 
 add_library(tessera_imageio SHARED ${tessera_imageio_sources})
 target_link_libraries(tessera_imageio PRIVATE tessera_options PkgConfig::OIIO PNG::PNG)
@@ -71,6 +70,5 @@ file(GLOB tessera_cli_sources CONFIGURE_DEPENDS ${program_dir}/cli/*.cpp)
 add_executable(tessera_cli ${tessera_cli_sources} ${tessera_selftest})
 target_link_libraries(tessera_cli PRIVATE
   tessera_options tessera_scene tessera CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
-tessera_precompile(tessera_cli <CLI/CLI.hpp> <nlohmann/json.hpp>)
 set_target_properties(tessera_cli PROPERTIES OUTPUT_NAME tessera INSTALL_RPATH "$ORIGIN/../lib")
 add_dependencies(tessera_cli tessera_imageio tessera_import)

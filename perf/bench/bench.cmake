@@ -21,7 +21,6 @@ foreach(target tessera_bench_parts tessera_bench)
   target_link_libraries(${target} PRIVATE
     tessera_options tessera_scene tessera CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
 endforeach()
-tessera_precompile(tessera_bench_parts <CLI/CLI.hpp> <nlohmann/json.hpp>)
 if(TESSERA_OSMESA_INCLUDE)
   target_include_directories(tessera_bench_parts SYSTEM PRIVATE ${TESSERA_OSMESA_INCLUDE})
 endif()
