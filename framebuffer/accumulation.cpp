@@ -21,7 +21,8 @@ std::int32_t saturated(std::int64_t level, Range range) {
 
 // Nearest integer, halves up, clamped to -limit .. limit.
 std::int64_t rounded(double level, double limit) {
-  // Clamp first: the limits are integers. Truncation rounds negative values up; the last line corrects that.
+  // The limits are integers, so clamping before rounding gives the same result, and the conversion is in
+  // range. Truncation rounds negative values up; the last line corrects that.
   const double x = std::clamp(level + 0.5, -limit, limit);
   const auto truncated = static_cast<std::int64_t>(x);
   return truncated - (static_cast<double>(truncated) > x ? 1 : 0);

@@ -1,8 +1,9 @@
 // Arithmetic of the accumulation buffer [GL 2.1, 4.2.4]: signed components of 16 or 32 bits. 1.0 is the
 // largest level, 32767 or 2^31 - 1. Results outside the range saturate.
 //
-// A stored component is an integer, so acc + floor(v c S + 0.5) equals acc + v c S rounded once. The term
-// that an operation adds depends on the stored colour level alone: the terms are tabulated, one per level.
+// With the operation's value v, a colour component c of 0..1 and the level S of 1.0: a stored component is an
+// integer, so acc + floor(v c S + 0.5) equals acc + v c S rounded once. The added term depends on the stored
+// colour level alone: the terms are tabulated, one per level.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Stores tiles in planes, one strip of a row at a time.
+// Stores tiles in planes, one run of pixels of a row at a time.
 // - AVX2: 32 pixels, by sign masks of bytes (MOVMSK).
 // - AVX-512: 64 pixels, by tests of bytes (VPTESTMB); whole cache lines with GFNI, see plane_lines-inl.h.
 // - Scalar: 8 pixels, as a square of bits.
@@ -166,7 +166,7 @@ void store_rows_of(const StripRows& tile, std::uint32_t flip, std::uint32_t mask
   }
 }
 
-#if HWY_TARGET == HWY_AVX3  // one instantiation: with GFNI, most stores take the whole-line path
+#if HWY_TARGET == HWY_AVX3  // kernels for fixed masks gain little: with GFNI most stores take whole lines
 void store_rows(const StripRows& tile, std::uint32_t flip, std::uint32_t mask) noexcept {
   store_rows_of<0>(tile, flip, mask);
 }

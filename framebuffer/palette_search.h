@@ -19,7 +19,7 @@ class PaletteSearch {
   /// @param dithered  components of the searched colours range from -0.5 to 1.5, else from 0 to 1
   explicit PaletteSearch(const Palette& palette, bool dithered = false);
 
-  /// Index of the nearest set entry; unset entries are never chosen.
+  /// Index of the nearest entry that the palette defines. Undefined entries are never chosen.
   /// - Distance: squared, of components 0..1 (stored value / 255). Ties go to the lowest index.
   /// - Components are clamped to 0..1, NaN counts as 0.
   /// - Equals nearest_reference() bit for bit. Thread-safe, never fails.

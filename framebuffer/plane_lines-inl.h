@@ -5,13 +5,15 @@
 // step permutes the 64 bytes of vectors, which are given here as arrays, the last index fastest:
 //
 //   1. [row 4][pixel 4][byte 4]: a block as it is loaded.
-//   2. [row 4][half 2][pixel 8]: one byte of the pixels of 4 blocks, two in each half of the quarter
+//   2. [row 4][byte 4][pixel 4]: the bytes of a block's pixels, split.
+//   3. [row 4][half 2][pixel 8]: one byte of the pixels of 4 blocks, two in each half of the quarter
 //      (transpose_byte()).
-//   3. [row 4][half 2][plane 8]: bits transposed in squares of 8x8, by products with the identity matrix
+//   4. [row 4][half 2][plane 8]: bits transposed in squares of 8x8, by products with the identity matrix
 //      (transpose_byte()).
-//   4. [row 4][half 2][8 pixels of one plane, 8 times]: 8 vectors, one per 8 pixels of each half, exchange
-//      bytes (exchange_all()).
-//   5. [8 pixels of one plane, 64 times]: the 4 quarters of a line exchange rows (store_plane_lines()).
+//   5. [row 4][half 2][octet 8], an octet being 8 neighbouring pixels of one plane: the 8 vectors of a
+//   plane's
+//      bytes exchange them, so that each vector holds one plane (exchange_all()).
+//   6. [octet 64]: the 4 quarters of a line exchange rows (store_plane_lines()).
 #if defined(TESSERA_FRAMEBUFFER_PLANE_LINES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TESSERA_FRAMEBUFFER_PLANE_LINES_INL_H_
 #undef TESSERA_FRAMEBUFFER_PLANE_LINES_INL_H_
@@ -33,7 +35,7 @@ namespace HWY_NAMESPACE {
 
 inline constexpr int kQuarterPixels = kLinePixels / 4;
 
-/// Steps 2 and 3 for byte kByte of the pixels of 4 blocks: every 8 pixels of a row become 8 planes.
+/// Steps 3 and 4 for byte kByte of the pixels of 4 blocks: every 8 pixels of a row become 8 planes.
 ///
 /// @param split  per block [row 4][byte 4][pixel 4]; blocks 0 and 1 lie in the left half of a quarter, blocks
 ///               2 and 3 in the right half
@@ -45,9 +47,10 @@ HWY_INLINE __m512i transpose_byte(const __m512i (&split)[4]) noexcept {
       kByte < 2 ? _mm512_unpacklo_epi32(split[2], split[3]) : _mm512_unpackhi_epi32(split[2], split[3]);
   const __m512i pixels =
       kByte % 2 == 0 ? _mm512_unpacklo_epi64(left, right) : _mm512_unpackhi_epi64(left, right);
-  const __m512i one = _mm512_set1_epi64(static_cast<long long>(0x8040201008040201));
-  // The pixels are the matrix: byte k becomes bit k of each pixel, the first pixel highest.
-  return _mm512_gf2p8affine_epi64_epi8(one, pixels, 0);
+  const __m512i identity = _mm512_set1_epi64(static_cast<long long>(0x8040201008040201));
+  // The pixels are the matrix operand and the identity is the data: byte k of the result collects bit k of
+  // each pixel, the first pixel in the highest bit.
+  return _mm512_gf2p8affine_epi64_epi8(identity, pixels, 0);
 }
 
 /// Exchanges the bytes of `a` at positions with bit kBit set with those of `b` at positions without it.

@@ -1,5 +1,5 @@
-// Binning: assigns primitives to the tiles that they may touch. Single-threaded: each batch of primitives
-// fills its own bins in submission order, and tiles read the batches in order.
+// Binning: assigns primitives to the tiles that they may touch. One thread bins each batch of primitives, in
+// submission order and into separate bins; tiles read the batches in order.
 #pragma once
 
 #include <cstddef>

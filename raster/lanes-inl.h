@@ -16,7 +16,7 @@ namespace tessera::detail {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatTag = hn::CappedTag<float, 16>;  // at most one block
+using FloatTag = hn::CappedTag<float, 16>;  // at most the 16 pixels of a block
 using IntTag = hn::RebindToSigned<FloatTag>;
 using UintTag = hn::RebindToUnsigned<FloatTag>;
 using Float = hn::Vec<FloatTag>;

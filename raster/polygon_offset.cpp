@@ -17,15 +17,15 @@ double depth_of(DepthFormat kind, std::uint32_t z) {
   return depth;
 }
 
-// max(|dz/dx|, |dz/dy|) per pixel. `area` is the doubled area.
+// max(|dz/dx|, |dz/dy|) per pixel.
 double slope_of(DepthFormat kind, const WindowVertex& a, const WindowVertex& b, const WindowVertex& c,
-                double area) {
+                double twice_area) {
   const double z = depth_of(kind, a.z);
   const double to_b = depth_of(kind, b.z) - z, to_c = depth_of(kind, c.z) - z;
-  // Gradient times the area, per 1/256 pixel.
-  const double dx = to_b * (c.y - a.y) - to_c * (b.y - a.y);
-  const double dy = to_c * (b.x - a.x) - to_b * (c.x - a.x);
-  return std::max(std::abs(dx), std::abs(dy)) * kSubpixelScale / area;
+  // Gradient times twice the area, per 1/256 pixel.
+  const double slope_x = to_b * (c.y - a.y) - to_c * (b.y - a.y);
+  const double slope_y = to_c * (b.x - a.x) - to_b * (c.x - a.x);
+  return std::max(std::abs(slope_x), std::abs(slope_y)) * kSubpixelScale / twice_area;
 }
 
 std::uint8_t outcodes_of(const BinDraw& draw, std::uint32_t triangle) {

@@ -345,11 +345,14 @@ static bool is_exact(const double* row) {
 // Let u = 2^-53 and S the sum of the magnitudes of a coordinate's terms.
 // - A coordinate has four roundings: its error is at most 4 u S.
 // - A distance z + w has twice that error and one rounding; a distance from a guard plane has (1 + guard)
-//   times the error of a coordinate. 2^-48 S and (1 + guard) 2^-49 S are at least twice as much.
-// - The distance of two exact coordinates has the right sign, and that of equal rows is exactly 0: no bound
-//   is needed.
-// - A relative error of 2^-20 in w moves a visible vertex by at most that fraction of the guard band's width;
-//   for |w| > 2^-30 S the error is smaller.
+//   times the error of a coordinate. The bounds below, 2^-48 S and (1 + guard) 2^-49 S, are at least twice
+//   these errors.
+// - The distance of two exact coordinates has the right sign, and w - z is exactly 0 if the rows of z and w
+// are
+//   equal: no bound is needed.
+// - For |w| > 2^-30 S the relative error of w is below 2^-20, which moves a visible vertex by at most 2^-20
+// of
+//   the guard band's width.
 void VertexTransform::set_error_bounds() {
   const double* const m = clip_from_object;
   max_row_norm_xyz = max_abs_translation = 0;

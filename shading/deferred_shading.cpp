@@ -55,7 +55,8 @@ HWY_INLINE void gather_visible(const TileContext& context, PixelBatch& pixels, i
 }
 
 // take_surface_pixels() takes the pixels of a block that belong to the batch's surface into the next slot,
-// and returns them. gather_pending() gathers the attributes that take_surface_pixels() has left.
+// and returns them. gather_pending() gathers the attributes whose gathering take_surface_pixels() has put
+// off.
 //   visibility  the block's part of the visibility buffer
 //   pending     pixels of the block that have not been taken yet
 #if HWY_TARGET == HWY_AVX3

@@ -62,7 +62,8 @@ struct FragmentTriangle {
     if (!evaluates_colors) return;
     begin_surface(context, surface, triangle);
     surface.gathers_coordinates = false;  // sample_block() samples the texture, possibly before the tests
-    // Flat draws keep their colour for the alpha test while a capture of normals lights them.
+    // In a capture of normals a flat draw has a lighting program too; its flat colour then serves the alpha
+    // test only.
     const bool is_lit = surface.program != nullptr;
     has_given_colors = !is_lit && (flat_color != nullptr || block_colors != nullptr);
     if (has_given_colors) surface.attribute_count = 0;
@@ -78,7 +79,8 @@ struct FragmentTriangle {
   void operator()(int bx, int by, const BlockFragments* blocks);  // fragment_triangle.cpp
 
  private:
-  /// Interpolated colours: wide triangles of Kind::triangles_msaa are drawn here.
+  /// Whether colours are evaluated here. That includes interpolated ones, because draws of
+  /// Kind::triangles_msaa send groups with wide triangles here.
   static HWY_INLINE bool needs_colors(const TileDraw& draw) {
     return draw.path.color_write == ColorWrite::evaluated ||
            draw.path.color_write == ColorWrite::interpolated || draw.captures_normals;

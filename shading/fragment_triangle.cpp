@@ -113,7 +113,7 @@ HWY_INLINE void FragmentTriangle::store_ids(int index, const std::uint32_t* pass
     }
 }
 
-/// Evaluates red, green and blue of the block's pixels in the batch.
+/// Evaluates red, green and blue of the block's pixels, the set bits, into the batch.
 HWY_INLINE void FragmentTriangle::evaluate_block(int bx, int by, std::uint32_t bits) {
   ShadingBatch& batch = context.memory.batch;
   if (has_given_colors && flat_color != nullptr) {

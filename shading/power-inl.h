@@ -50,7 +50,7 @@ HWY_INLINE Float power_lanes(Float x, float y) {
 }
 
 /// x^n in place for n = 1 .. kMaxIntegerExponent, by products of squares, with the error of n - 1 roundings.
-/// - 0 for x <= 0 or NaN. x below `min_base` counts as min_base. Results are at most 2^96.
+/// - 0 for x <= 0 or NaN. Positive x below `min_base` counts as min_base. Results are at most 2^96.
 /// - Takes several x at a time, because the branches on n are the same for all.
 /// @param min_base  2^min_base_log2(n)
 template <std::size_t kCount>

@@ -29,7 +29,9 @@ HWY_INLINE Int upper_bytes_down(Int words) {
   return hn::And(hn::BitCast(kInt, hn::ShiftRight<8>(hn::BitCast(kUint, words))), splat(0x00ff00ff));
 }
 /// The lower 16 bits of each lane in both halves.
-HWY_INLINE Int twice(Int lower) { return hn::Or(hn::And(lower, splat(0xffff)), hn::ShiftLeft<16>(lower)); }
+HWY_INLINE Int in_both_halves(Int lower) {
+  return hn::Or(hn::And(lower, splat(0xffff)), hn::ShiftLeft<16>(lower));
+}
 /// a - (a f >> 16) + (b f >> 16) for each 16 bits: exactly a if b equals a.
 HWY_INLINE Int lerp_texels(Int a, Int b, Int f) {
   const auto part = [](std::uint32_t x, std::uint32_t y) {
@@ -47,7 +49,7 @@ HWY_INLINE Int lower_bytes_up(Int words) {
 HWY_INLINE Int upper_bytes_down(Int words) {
   return hn::BitCast(kInt, hn::ShiftRight<8>(hn::BitCast(kHalves, words)));
 }
-HWY_INLINE Int twice(Int lower) {
+HWY_INLINE Int in_both_halves(Int lower) {
   return hn::BitCast(
       kInt, hn::OddEven(hn::BitCast(kHalves, hn::ShiftLeft<16>(lower)), hn::BitCast(kHalves, lower)));
 }

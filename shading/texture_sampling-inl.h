@@ -31,19 +31,20 @@ HWY_INLINE Int nearest_texel(Float unit, const TexelAxis& axis) {
 }
 
 /// The first of the two texels between whose centres a coordinate lies, and the fraction of the way to the
-/// next, in both halves of the lane.
+/// next, in both 16-bit halves of the lane.
 struct TexelPosition {
   Int texel, fraction;
 };
 HWY_INLINE TexelPosition bilinear_position(Float unit, const TexelAxis& axis, TextureWrap wrap) {
   Int at = hn::Sub(truncate(hn::Mul(unit, splat(axis.scale))), splat(1 << 15));
   if (wrap == TextureWrap::repeat) {
-    // The last texel lies left of the first centre. Negative values are large as unsigned ones.
+    // Left of the first centre `at` is negative and wraps to the last texel. Read as unsigned it is large, so
+    // the minimum takes at + all.
     at = hn::BitCast(kInt, hn::Min(hn::BitCast(kUint, at), hn::BitCast(kUint, hn::Add(at, splat(axis.all)))));
   } else {
     at = hn::Max(hn::Min(at, splat(axis.last)), hn::Zero(kInt));
   }
-  return {hn::ShiftRight<16>(at), twice(at)};
+  return {hn::ShiftRight<16>(at), in_both_halves(at)};
 }
 
 /// Nearest texels, as stored.
@@ -136,7 +137,7 @@ HWY_INLINE void mipmapped_linear_texels(const TextureLevels& texture, int level,
   for (int i = 0; i < kChunks; ++i) linear[1][i].place(texture, texture.level[level + 1], s[i], t[i]);
   for (int i = 0; i < kChunks; ++i) {
     const Texels larger = linear[0][i].filtered();
-    texels[i] = lerp_texels(larger, linear[1][i].filtered(), twice(level_of[i]));
+    texels[i] = lerp_texels(larger, linear[1][i].filtered(), in_both_halves(level_of[i]));
   }
 }
 HWY_INLINE Texels mipmapped_linear_texels(const TextureLevels& texture, int level, Int level_of, Float s,
@@ -149,7 +150,8 @@ HWY_INLINE Texels mipmapped_nearest_texels(const TextureLevels& texture, int lev
                                            Float t) {
   const Texels larger = nearest_texels(texture, texture.level[level], s, t);
   return texture.blends_levels && level < texture.last
-             ? lerp_texels(larger, nearest_texels(texture, texture.level[level + 1], s, t), twice(level_of))
+             ? lerp_texels(larger, nearest_texels(texture, texture.level[level + 1], s, t),
+                           in_both_halves(level_of))
              : larger;
 }
 

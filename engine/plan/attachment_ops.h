@@ -55,7 +55,7 @@ struct FrameAttachments {
 
 /// Plans the operations of every attachment.
 /// @param commands   plans, clears and accumulations are complete
-/// @param presented  the colour goes to an image, too
+/// @param presented  the colour goes to an image
 /// @throws Error  if the frame loads a buffer that the frame before did not keep
 FrameAttachments plan_attachments(const FrameCommands& commands, FrameRecording& recording, bool presented);
 

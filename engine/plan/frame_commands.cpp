@@ -103,13 +103,13 @@ std::optional<TileClear> plan_clear(const Clear& clear, FrameBufferState& target
 
 void plan_clears(FrameCommands& commands, FrameRecording& recording) {
   for (const RecordedClear& recorded : recording.clears) {
-    commands.clears_until.push_back(static_cast<std::uint32_t>(commands.clears.size()));
+    commands.first_clear_at.push_back(static_cast<std::uint32_t>(commands.clears.size()));
     std::optional<TileClear> command = plan_clear(recorded.clear, *recording.target);
     if (!command) continue;
     command->before_draw = commands.first_plan_at[recorded.before_draw];
     commands.clears.push_back(*command);
   }
-  commands.clears_until.push_back(static_cast<std::uint32_t>(commands.clears.size()));
+  commands.first_clear_at.push_back(static_cast<std::uint32_t>(commands.clears.size()));
 }
 
 void plan_accumulations(FrameCommands& commands, const FrameRecording& recording) {
@@ -117,7 +117,7 @@ void plan_accumulations(FrameCommands& commands, const FrameRecording& recording
     std::optional<TileAccumulation> command = plan_accumulation(recorded.accum, *recording.target);
     if (!command) continue;
     command->before_draw = commands.first_plan_at[recorded.before_draw];
-    command->after_clears = commands.clears_until[recorded.after_clears];
+    command->after_clears = commands.first_clear_at[recorded.after_clears];
     commands.accumulations.push_back(*command);
   }
 }
@@ -166,7 +166,7 @@ void FrameCommands::reset() {
   clears.clear();
   accumulations.clear();
   first_plan_at.clear();
-  clears_until.clear();
+  first_clear_at.clear();
   attachments = {};
 }
 

@@ -26,8 +26,10 @@ struct FrameCommands {
   std::vector<std::size_t> tile_draw_plan;  ///< per tile draw: its plan
   std::vector<TileClear> clears;
   std::vector<TileAccumulation> accumulations;
-  std::vector<std::uint32_t> first_plan_at;  ///< per recorded draw, and one past the last: the next plan
-  std::vector<std::uint32_t> clears_until;   ///< per recorded clear, and one past the last: the next clear
+  /// Per recorded draw, and one past the last: index of the first plan of this or a later draw.
+  std::vector<std::uint32_t> first_plan_at;
+  /// Per recorded clear, and one past the last: index of the first tile clear of this or a later clear.
+  std::vector<std::uint32_t> first_clear_at;
   FrameAttachments attachments;
 
   void reset();
@@ -39,7 +41,7 @@ GeometryDraw geometry_draw(const RecordedDraw& draw, const DrawPlan& plan, Frame
 
 /// Plans every draw, clear and accumulation that can change a pixel.
 /// @param commands   is replaced
-/// @param presented  the colour goes to an image, too
+/// @param presented  the colour goes to an image
 /// @throws Error  if the frame loads a buffer that the frame before did not keep
 void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented,
                 std::deque<DrawBuffers>& buffers, WorkerPool& worker_pool);

@@ -109,6 +109,13 @@ void change(FrameRecording& recording, const char* function, const Change& edit)
   translate_bad_alloc(function, [&] { edit(recording.mutable_scene_state()); });
 }
 
+void check_draw_index(const char* function, std::size_t index, std::size_t draws) {
+  if (index < draws) return;
+  throw Error(ErrorCode::invalid_argument, std::string(function) + ": the draw index is " +
+                                               std::to_string(index) + ", must be less than the frame's " +
+                                               std::to_string(draws) + " draws");
+}
+
 }  // namespace
 
 Frame::Frame(FrameBuffer& target)
@@ -250,10 +257,7 @@ void Frame::reset() noexcept { recording_->clear(); }
 std::size_t Frame::draw_count() const noexcept { return recording_->draws.size(); }
 
 std::vector<EffectNote> Frame::effects(std::size_t draw_index) const {
-  if (draw_index >= recording_->draws.size())
-    throw Error(ErrorCode::invalid_argument,
-                "Frame::effects: draw " + std::to_string(draw_index) + " is asked for, the frame has " +
-                    std::to_string(recording_->draws.size()) + " draws, counted from 0");
+  check_draw_index("Frame::effects", draw_index, recording_->draws.size());
   return translate_bad_alloc("Frame::effects", [&] {
     const FloatingPointMode mode;
     std::vector<EffectNote> notes;
@@ -264,6 +268,7 @@ std::vector<EffectNote> Frame::effects(std::size_t draw_index) const {
 }
 
 std::string Frame::explain(std::size_t draw_index) const {
+  check_draw_index("Frame::explain", draw_index, recording_->draws.size());
   const std::vector<EffectNote> notes = effects(draw_index);
   return translate_bad_alloc("Frame::explain", [&] {
     const FloatingPointMode mode;

@@ -31,9 +31,9 @@ void check(const TextureImage& image, const TextureSampler& sampler) {
     throw Error(ErrorCode::invalid_argument,
                 "Texture: the image has " + std::to_string(image.channels) + " channels, must be 1 to 4");
   if (image.pixels == nullptr)
-    throw Error(ErrorCode::invalid_argument, "Texture: the pixels are null, must be " +
+    throw Error(ErrorCode::invalid_argument, "Texture: pixels is null, must point to " +
                                                  std::to_string(image.width) + "x" +
-                                                 std::to_string(image.height) + " of them");
+                                                 std::to_string(image.height) + " pixels");
   const std::ptrdiff_t row = std::ptrdiff_t{image.width} * image.channels;
   const bool rows_overlap = image.stride_bytes < row && image.stride_bytes > -row;
   if (image.stride_bytes != 0 && rows_overlap)
@@ -41,8 +41,8 @@ void check(const TextureImage& image, const TextureSampler& sampler) {
                                                  " bytes apart, but " + std::to_string(row) + " bytes long");
   require_enum({"Texture: mag"}, sampler.mag, TextureFilter::linear_mipmap_linear);
   require_enum({"Texture: min"}, sampler.min, TextureFilter::linear_mipmap_linear);
-  for (const TextureWrap wrap : {sampler.wrap_s, sampler.wrap_t})
-    require_enum({"Texture: a wrap"}, wrap, TextureWrap::mirrored_repeat);
+  require_enum({"Texture: wrap_s"}, sampler.wrap_s, TextureWrap::mirrored_repeat);
+  require_enum({"Texture: wrap_t"}, sampler.wrap_t, TextureWrap::mirrored_repeat);
   if (sampler.mag != TextureFilter::nearest && sampler.mag != TextureFilter::linear)
     throw Error(ErrorCode::invalid_argument,
                 "Texture: mag is a filter with mipmaps, must be nearest or linear");

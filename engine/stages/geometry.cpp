@@ -123,10 +123,10 @@ void store_colors(const GeometryDraw& draw, ShadingBatch& batch, const Batch& po
                   InstructionSet isa) {
   const DrawPlan& plan = *draw.plan;
   if (plan.folds_texture() && !plan.is_index[face]) fold_texture(plan.texture.texture, batch, points.count);
-  const bool as_floats = plan.source == ColorSource::interpolated;
-  if (as_floats && plan.is_index[face]) return store_indices(draw, batch, points, face);
+  const bool is_interpolated = plan.source == ColorSource::interpolated;
+  if (is_interpolated && plan.is_index[face]) return store_indices(draw, batch, points, face);
   if (plan.float_colors) return store_rgba(draw, batch, points, face);
-  if (as_floats) {
+  if (is_interpolated) {
     if (plan.scaled_colors) scale_colors(isa)(*draw.layout, batch, static_cast<int>(points.count));
     auto [out, stride] = color_output(draw, points, face);
     for (std::size_t i = 0; i < points.count; ++i, out += stride)
@@ -214,7 +214,8 @@ void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::si
   }
 }
 
-/// Lists the corners of each element, with its provoking vertex at provoking_place().
+/// Writes the vertex index of each corner of elements [first, last), the provoking vertex at
+/// provoking_place().
 void list_corners(const GeometryDraw& draw, std::size_t first, std::size_t last) {
   const MeshArrays& mesh = *draw.mesh;
   const auto each = static_cast<std::size_t>(mesh.topology());

@@ -121,7 +121,7 @@ void add_measurement_options(CLI::App& program, BenchOptions& options) {
       ", 0 to " + std::to_string(kMaxSeed));
 }
 
-/// Options that select another measurement than that of rates.
+/// Options that select another measurement than rows of single workloads.
 void add_mode_options(CLI::App& program, BenchOptions& options) {
   CLI::Option* const rivals = program.add_flag(
       "--rivals", options.rivals, "compare with Mesa, in turns (needs the Debian package libosmesa6)");
@@ -182,7 +182,7 @@ void add_options(CLI::App& program, BenchOptions& options) {
   add_measurement_options(program, options);
   add_mode_options(program, options);
   add_output_options(program, options);
-  // These modes measure no rates.
+  // These modes make no rows of single workloads, which --csv, --pictures and --compare need.
   exclude(program, {"--rivals", "--scaling"}, {"--csv", "--pictures", "--compare"});
   exclude(program, {"--rivals"}, {"--scaling"});
   // These modes write to their own file only.

@@ -239,7 +239,7 @@ void show_growth(const BenchOptions& options) {
 
 /// Binds the process to these logical CPUs.
 /// @throws CLI::ValidationError if one of them is not allowed
-void require_affinity(const std::vector<int>& cores) {
+void bind_to_cores(const std::vector<int>& cores) {
   const auto listed = [](const std::vector<int>& list) {
     std::string text;
     for (const int core : list) text += (text.empty() ? "" : ",") + std::to_string(core);
@@ -285,7 +285,7 @@ int run(BenchOptions& options) {
     throw CLI::ValidationError(
         "--heatmap", "found " + std::to_string(selection.entries.size()) + " workloads, expected 1");
   require_outputs(options);
-  if (!options.cores.empty()) require_affinity(options.cores);
+  if (!options.cores.empty()) bind_to_cores(options.cores);
   if (options.renderer.threads == 0) options.renderer.threads = available_cores();
   if (!options.growth_file.empty()) {
     show_growth(options);

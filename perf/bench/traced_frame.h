@@ -11,7 +11,8 @@ namespace tessera::bench {
 
 struct TracedFrame {
   std::string workload;
-  /// From the first command to the end of finish(); for measured costs, the sum of all parts.
+  /// From the first command to the end of finish(); in frames of measure_task_costs() and
+  /// measure_frame_costs(), the sum of all parts.
   double seconds = 0;
   std::vector<FrameTask> tasks{};  ///< in the order in which they began
   /// Time in which workers run outside tasks: they take their next task or do untraced work.

@@ -99,11 +99,12 @@ void main() {
 
 // Shared by the fragment programs. The derivatives for the level of detail are exact: 1/w and its products
 // are linear in the window, so differences between neighbours equal the derivative everywhere, and the
-// quotient rule gives the rest. Along a line both derivatives are parts of the one along its length. Mesa's
+// quotient rule gives the rest. On a line
+// the derivatives along x and y are components of the one along its length, so their squares add. Mesa's
 // own level of detail uses differences of the quotients and a logarithm that is piecewise linear between
 // powers of two. The environments are tables 3.22 and 3.23 of OpenGL 1.5; a texel without alpha has alpha 1.
 inline constexpr const char* kTexturing = R"(uniform int texture_dimensions;  // 0: none
-uniform vec4 texture_size;       // xy: texels, height 0 for 1-D; z: on a line; w: highest magnified level
+uniform vec4 texture_size;       // xy: texels, height 0 for 1-D; z: 1 on a line; w: largest magnified level
 uniform int texture_env;         // modulate, replace, decal, blend, add
 uniform int texture_has_alpha;
 uniform vec4 texture_env_color;

@@ -23,7 +23,7 @@ void component_lanes(const std::uint16_t (&components)[16], float (&units)[16], 
     for (int l = 0; l < kLanes; ++l) lanes[l] = components[i + l];
     const Int component = hn::Load(kInt, lanes);
     hn::StoreU(unit_component(component), kFloat, units + i);
-    hn::Store(pack_texels({twice(component), twice(component)}), kInt, lanes);
+    hn::Store(pack_texels({in_both_halves(component), in_both_halves(component)}), kInt, lanes);
     for (int l = 0; l < kLanes; ++l) packed[i + l] = static_cast<std::uint32_t>(lanes[l]);
   }
 }

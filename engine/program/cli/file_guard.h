@@ -6,7 +6,7 @@
 namespace tessera::program::cli {
 
 /// Two paths name the same file if they lead to the same inode; a path that does not exist matches nothing.
-/// @param input, reference  the rendered file and that of --compare; empty: none
+/// @param input, reference  the scene or model, and the picture of --compare; empty: none
 /// @throws Error, naming both paths, if `picture` is the input or the reference.
 void refuse_overwriting(const std::string& picture, const std::string& input, const std::string& reference);
 

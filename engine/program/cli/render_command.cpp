@@ -69,7 +69,7 @@ class Input {
 
 std::string output_path(const RenderRequest& request) {
   if (!request.output.path.empty()) return request.output.path;
-  // The suffix avoids the names of textures, so that an earlier picture can be replaced without asking.
+  // Without the suffix, the picture of truck.obj could replace its texture truck.png.
   const std::string name =
       request.input.empty() ? "tessera" : fs::path(request.input).stem().string() + ".render";
   return name + (request.frames > 1 ? "_{frame}.png" : ".png");
@@ -214,8 +214,8 @@ int render(RenderRequest request) {
   std::optional<Picture> reference;
   if (!request.reference.empty()) reference = read_picture(request.reference);
 
-  std::optional<ThreadLimit> more_threads_than_cores;
-  if (request.options.threads > available_cores()) more_threads_than_cores.emplace(request.options.threads);
+  std::optional<ThreadLimit> raised_limit;
+  if (request.options.threads > available_cores()) raised_limit.emplace(request.options.threads);
   Progress progress(request.progress);
   int done_renders = 0;
   std::string label;

@@ -82,7 +82,7 @@ BitmapCommand read_bitmap(const Value& value, const Scene& scene) {
   bitmap.height = static_cast<int>(object.require("height").integer(1, kMaxFrameBufferSize));
   const Value rows = object.require("rows");
   if (!rows.json().is_array() || rows.size() != static_cast<std::size_t>(bitmap.height))
-    rows.fail("one row for each of the bitmap's " + std::to_string(bitmap.height));
+    rows.fail("an array of " + std::to_string(bitmap.height) + " rows, the bitmap's height");
   for (std::size_t i = 0; i < rows.size(); ++i)
     read_hexadecimal_row(rows.element(i), (static_cast<std::size_t>(bitmap.width) + 7) / 8, command.bits);
   bitmap.depth = read_raster_depth(object);

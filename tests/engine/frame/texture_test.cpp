@@ -40,7 +40,7 @@ TEST(Texture, InvalidImagesAreRefused) {
   EXPECT_EQ(refused(image), "Texture: the image has 0 channels, must be 1 to 4");
   image.channels = 4;
   image.pixels = nullptr;
-  EXPECT_EQ(refused(image), "Texture: the pixels are null, must be 4x4 of them");
+  EXPECT_EQ(refused(image), "Texture: pixels is null, must point to 4x4 pixels");
   image = pixels.image();
   image.stride_bytes = 15;
   EXPECT_EQ(refused(image), "Texture: the rows are 15 bytes apart, but 16 bytes long");
