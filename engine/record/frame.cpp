@@ -111,9 +111,9 @@ void change(FrameRecording& recording, const char* function, const Change& edit)
 
 void check_draw_index(const char* function, std::size_t index, std::size_t draws) {
   if (index < draws) return;
-  throw Error(ErrorCode::invalid_argument, std::string(function) + ": the draw index is " +
-                                               std::to_string(index) + ", must be less than the frame's " +
-                                               std::to_string(draws) + " draws");
+  throw Error(ErrorCode::invalid_argument, std::string(function) + ": draw " + std::to_string(index) +
+                                               " does not exist, the frame has " + std::to_string(draws) +
+                                               " draws, counted from 0");
 }
 
 }  // namespace
