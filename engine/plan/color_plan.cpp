@@ -12,8 +12,6 @@
 namespace tessera::detail {
 namespace {
 
-Rgb rgb(const Color& c) { return {c.r, c.g, c.b}; }
-
 SurfaceMaterial surface(const Material& m) {
   return {rgb(m.ambient), rgb(m.diffuse), rgb(m.specular), rgb(m.emission), m.shininess};
 }

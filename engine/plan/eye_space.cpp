@@ -10,8 +10,6 @@
 namespace tessera::detail {
 namespace {
 
-Rgb rgb(const Color& c) { return {c.r, c.g, c.b}; }
-
 std::array<float, 3> unit(const glm::dvec3& v) {
   const glm::dvec3 m = scaled_to_safe_range(v);
   const double length = glm::length(m);

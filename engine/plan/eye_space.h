@@ -9,6 +9,9 @@
 
 namespace tessera::detail {
 
+/// Without alpha, which lighting does not use.
+inline Rgb rgb(const Color& c) { return {c.r, c.g, c.b}; }
+
 /// A light in eye space.
 /// - Distances are limited so that the squared distance to points within 2^62 of the eye is a finite float.
 /// - The view may be a projection: positions are divided by w after it (w = 0 counts as 1). Directional

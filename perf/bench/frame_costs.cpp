@@ -19,7 +19,7 @@ namespace {
 constexpr int kWarmUps = 3;
 constexpr int kFrames = 9;
 // measure_frame_costs()
-constexpr int kMinTurns = 3;
+constexpr int kMinCostTurns = 3;
 constexpr int kFramesPerTurn = 2;
 
 using Clock = std::chrono::steady_clock;
@@ -150,7 +150,7 @@ std::vector<TracedFrame> measure_frame_costs(const WorkloadEntry& entry, const W
                       for (const int count : workers)
                         all.push_back(std::make_unique<FrameCosts>(entry, setup, count, cores));
                       const Clock::time_point start = Clock::now();
-                      for (int turn = 0; turn < kMinTurns || seconds_since(start) < seconds; ++turn)
+                      for (int turn = 0; turn < kMinCostTurns || seconds_since(start) < seconds; ++turn)
                         for (const auto& costs : all) costs->take_turn();
                       std::vector<TracedFrame> minima;
                       for (const auto& costs : all) minima.push_back(costs->min());

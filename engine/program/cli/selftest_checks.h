@@ -7,6 +7,10 @@
 
 namespace tessera::program::cli {
 
+// The checks of powers and levels draw one point per pixel of a square frame.
+inline constexpr int kFrameSide = 64;
+inline constexpr int kFramePoints = kFrameSide * kFrameSide;
+
 struct CheckReport {
   std::string name;      ///< "checked quantity, reference"
   std::string measured;  ///< summary of the results

@@ -18,8 +18,6 @@
 namespace tessera::program::cli {
 namespace {
 
-constexpr int kSide = 64;  // frame size; one point per pixel
-constexpr int kPoints = kSide * kSide;
 constexpr long double kColorRounding = 0x1p-17L;  // one rounding of a float below 256
 constexpr long double kDepthRounding = 0x1p-20L;  // two roundings of a double below 2^33
 
@@ -50,11 +48,11 @@ struct Points {
       if (kind == 1) return std::nextafter(half_level, 1.0f);
       return static_cast<float>(bits & 0xffffff) / 0xffffff;
     };
-    for (int i = 0; i < kPoints; ++i) {
+    for (int i = 0; i < kFramePoints; ++i) {
       depths.push_back(value());
       positions.insert(positions.end(),
-                       {(static_cast<float>(i % kSide) + 0.5f) / (kSide / 2) - 1,
-                        1 - (static_cast<float>(i / kSide) + 0.5f) / (kSide / 2), depths.back()});
+                       {(static_cast<float>(i % kFrameSide) + 0.5f) / (kFrameSide / 2) - 1,
+                        1 - (static_cast<float>(i / kFrameSide) + 0.5f) / (kFrameSide / 2), depths.back()});
       colors.insert(colors.end(), {value(), value(), value(), 1});
     }
   }
@@ -83,12 +81,12 @@ struct LargestErrors {
 };
 
 LargestErrors largest_errors(const Points& points, const TestedFormat& format, Renderer& renderer) {
-  FrameBuffer buffer({.width = kSide, .height = kSide, .depth = format.depth, .stencil_bits = 0});
+  FrameBuffer buffer({.width = kFrameSide, .height = kFrameSide, .depth = format.depth, .stencil_bits = 0});
   points.draw(buffer, renderer);
   const std::vector<std::uint32_t> colors = packed_colors(buffer);
   const std::vector<std::uint32_t> depths = stored_depths(buffer);
   LargestErrors largest;
-  for (std::size_t i = 0; i < kPoints; ++i) {
+  for (std::size_t i = 0; i < kFramePoints; ++i) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t level = colors[i] >> (16 - 8 * c) & 255;
       largest.color = std::max(largest.color, std::abs(level - 255.0L * points.colors[4 * i + c]));
@@ -117,7 +115,7 @@ CheckReport check_levels(const Configurations& configurations) {
       if (errors.color > 0.5L + kColorRounding && !std::exchange(has_wrong_color, true)) add_failed("colour");
       if (errors.depth > 0.5L + kDepthRounding) add_failed(format.name);
       largest = std::max({largest, errors.color, errors.depth});
-      level_count += std::size_t{4} * kPoints;
+      level_count += std::size_t{4} * kFramePoints;
     }
     if (!failed.empty()) report.add("not the nearest level: " + failed, configuration);
   }

@@ -13,8 +13,6 @@
 namespace tessera::program::cli {
 namespace {
 
-constexpr int kSide = 64;  // frame size; one point per pixel
-constexpr int kPoints = kSide * kSide;
 constexpr int kOctaves = 8;                      // powers of at least 1/256
 constexpr double kMeasurementUlps = 64 / 510.0;  // a stored level is known to 1/510 of full colour
 
@@ -36,13 +34,14 @@ struct Powers {
   std::vector<double> exact;
 
   Powers(float y, int octave) : exponent(y), specular(std::ldexp(1.0, 18 + octave)) {
-    for (int i = 0; i < kPoints; ++i) {
-      const double wanted = std::ldexp(1 + (i + 0.5) / kPoints, -octave - 1);
+    for (int i = 0; i < kFramePoints; ++i) {
+      const double wanted = std::ldexp(1 + (i + 0.5) / kFramePoints, -octave - 1);
       const auto x = static_cast<float>(std::pow(wanted, 1 / double{y}));
       exact.push_back(std::pow(double{x}, double{y}));
       const auto emission = static_cast<float>(0.5 - specular * exact.back());
-      positions.insert(positions.end(), {(static_cast<float>(i % kSide) + 0.5f) / (kSide / 2) - 1,
-                                         (static_cast<float>(i / kSide) + 0.5f) / (kSide / 2) - 1, 0});
+      positions.insert(positions.end(),
+                       {(static_cast<float>(i % kFrameSide) + 0.5f) / (kFrameSide / 2) - 1,
+                        (static_cast<float>(i / kFrameSide) + 0.5f) / (kFrameSide / 2) - 1, 0});
       normals.insert(normals.end(), {0, 0, x});
       emissions.insert(emissions.end(), {emission, emission, emission, 1});
     }
@@ -57,7 +56,7 @@ struct Powers {
                       .emission = {0, 0, 0, 1},
                       .shininess = exponent};
     state.depth.enabled = false;
-    FrameBuffer buffer({.width = kSide, .height = kSide});
+    FrameBuffer buffer({.width = kFrameSide, .height = kFrameSide});
     Frame frame(buffer);
     frame.set_lights({Light{.position = {0, 0, 1, 0}}});
     frame.set_light_model({.ambient = {0, 0, 0, 1}});
@@ -72,9 +71,10 @@ struct Powers {
   double largest_error_ulps(Renderer& renderer) const {
     const std::vector<std::uint32_t> colors = drawn(renderer);
     double largest = 0;
-    for (int i = 0; i < kPoints; ++i) {
+    for (int i = 0; i < kFramePoints; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      const auto pixel = static_cast<std::size_t>((kSide - 1 - i / kSide) * kSide + i % kSide);
+      const auto pixel =
+          static_cast<std::size_t>((kFrameSide - 1 - i / kFrameSide) * kFrameSide + i % kFrameSide);
       const double found = ((colors[pixel] & 255) / 255.0 - double{emissions[4 * at]}) / specular;
       largest = std::max(largest, std::abs(found - exact[at]) / std::ldexp(1.0, std::ilogb(exact[at]) - 23));
     }
@@ -111,7 +111,7 @@ CheckReport check_powers(const Configurations& configurations) {
       share = std::max(share, (error - kMeasurementUlps) / bound_ulps(p.exponent));
     }
   }
-  report.measured = std::to_string(powers.size() * kPoints * configurations.size()) + " powers, error " +
+  report.measured = std::to_string(powers.size() * kFramePoints * configurations.size()) + " powers, error " +
                     number(largest) + " ulp, " + number(std::ceil(100 * share)) + " % of its bound";
   return report;
 }

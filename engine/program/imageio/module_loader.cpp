@@ -11,7 +11,7 @@ namespace tessera::program {
 namespace {
 
 template <class Function>
-Function* function_of_module(const char* name, const std::string& wanted_for) {
+Function* imageio_module_function(const char* name, const std::string& wanted_for) {
   // If load_module() throws, the next call tries again.
   static void* const module = load_module(TESSERA_IMAGEIO_FILE_NAME, wanted_for, ".ppm works without it");
   return reinterpret_cast<Function*>(function_of(module, TESSERA_IMAGEIO_FILE_NAME, name));
@@ -25,7 +25,7 @@ const unsigned char* bytes_of(const std::string& text) {
 
 std::string encode_by_module(const Picture& picture, const std::string& extension, int compression) {
   auto* const encode =
-      function_of_module<tessera_imageio_encode_function>(TESSERA_IMAGEIO_ENCODE_NAME, extension);
+      imageio_module_function<tessera_imageio_encode_function>(TESSERA_IMAGEIO_ENCODE_NAME, extension);
   return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
     return encode(extension.c_str(), picture.rgba.data(), picture.width, picture.height,
                   4 * std::ptrdiff_t{picture.width}, compression, take, user, message, size);
@@ -33,7 +33,7 @@ std::string encode_by_module(const Picture& picture, const std::string& extensio
 }
 
 std::string encode_indexed_by_module(const IndexedPicture& picture, int compression) {
-  auto* const encode = function_of_module<tessera_imageio_encode_indexed_function>(
+  auto* const encode = imageio_module_function<tessera_imageio_encode_indexed_function>(
       TESSERA_IMAGEIO_ENCODE_INDEXED_NAME, ".png");
   return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
     return encode(picture.indices.data(), picture.width, picture.height, picture.bits, picture.palette.data(),
@@ -43,7 +43,7 @@ std::string encode_indexed_by_module(const IndexedPicture& picture, int compress
 
 Picture decode_by_module(const std::string& file, const std::string& extension) {
   auto* const decode =
-      function_of_module<tessera_imageio_decode_function>(TESSERA_IMAGEIO_DECODE_NAME, extension);
+      imageio_module_function<tessera_imageio_decode_function>(TESSERA_IMAGEIO_DECODE_NAME, extension);
   const std::string decoded = collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
     return decode(extension.c_str(), bytes_of(file), file.size(), kMaxFrameBufferSize, take, user, message,
                   size);
@@ -57,8 +57,8 @@ Picture decode_by_module(const std::string& file, const std::string& extension) 
 }
 
 std::vector<std::string> module_extensions() {
-  auto* const formats = function_of_module<tessera_imageio_formats_function>(TESSERA_IMAGEIO_FORMATS_NAME,
-                                                                             "the list of formats");
+  auto* const formats = imageio_module_function<tessera_imageio_formats_function>(
+      TESSERA_IMAGEIO_FORMATS_NAME, "the list of formats");
   std::istringstream list(collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
     return formats(take, user, message, size);
   }));

@@ -12,8 +12,6 @@
 namespace tessera::program {
 namespace {
 
-constexpr int kMaxNodeDepth = 500;
-
 // Some of assimp's readers fill in 0 or -1 if a file has no vertex colours.
 bool has_vertex_colors(const aiMesh& mesh) {
   bool any_positive = false;

@@ -15,7 +15,6 @@ namespace tessera::program {
 namespace {
 
 constexpr double kStandardFovy = 45;  // degrees
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 double tangent(double degrees) {
   const SinCos at = sin_cos_degrees(degrees);
@@ -30,7 +29,7 @@ bool set_angle(const aiCamera& camera, bool is_collada, ModelCamera& to) {
     to.half_height = tangent(kStandardFovy / 2);
     return true;
   }
-  const double degrees = camera.mHorizontalFOV * kDegrees;
+  const double degrees = camera.mHorizontalFOV * kDegreesPerRadian;
   if (!(degrees > 0.01 && degrees < 179)) return false;
   to.half_width = tangent(degrees / 2);
   if (has_aspect) to.half_height = std::exchange(to.half_width, 0) / camera.mAspect;
@@ -91,8 +90,9 @@ void add_light(const aiLight& light, const aiMatrix4x4& world, bool is_collada, 
       to.spot_direction = {direction.x, direction.y, direction.z};
       // For Collada, assimp stores the falloff angle as the inner cone and invents the outer one.
       const double cutoff = is_collada ? light.mAngleInnerCone : light.mAngleOuterCone;
-      to.spot_cutoff =
-          cutoff >= std::numbers::pi ? 180 : static_cast<float>(std::clamp(cutoff * kDegrees, 0.0, 90.0));
+      to.spot_cutoff = cutoff >= std::numbers::pi
+                           ? 180
+                           : static_cast<float>(std::clamp(cutoff * kDegreesPerRadian, 0.0, 90.0));
       if (!is_collada)
         to.spot_exponent = spot_exponent_from_cone(light.mAngleInnerCone, light.mAngleOuterCone);
       [[fallthrough]];

@@ -20,8 +20,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr int kMaxNodeDepth = 500;
 constexpr int kMaxNodeVisits = 1000000;
 
 // Returns the text of a .gltf, or the first chunk of a .glb, whose header is the five words "glTF", version,
@@ -110,7 +108,7 @@ class ViewReader {
     } else {
       const double angle = lens.value("yfov", 0.0);
       if (!(angle > 0 && angle < std::numbers::pi)) return warn_of_angle(angle);
-      const SinCos half = sin_cos_degrees(angle / 2 * kDegrees);
+      const SinCos half = sin_cos_degrees(angle / 2 * kDegreesPerRadian);
       to.half_height = half.sine / half.cosine;
     }
     if (!(to.half_height > 0) || !std::isfinite(to.half_height)) return;
@@ -153,7 +151,7 @@ class ViewReader {
       const double outer = light.value("/spot/outerConeAngle"_json_pointer, std::numbers::pi / 4);
       to.spot_direction = {static_cast<float>(-back.x), static_cast<float>(-back.y),
                            static_cast<float>(-back.z)};
-      to.spot_cutoff = static_cast<float>(std::clamp(outer * kDegrees, 0.0, 90.0));
+      to.spot_cutoff = static_cast<float>(std::clamp(outer * kDegreesPerRadian, 0.0, 90.0));
       to.spot_exponent = spot_exponent_from_cone(inner, outer);
     }
     const auto is_finite = [](const auto& list) {

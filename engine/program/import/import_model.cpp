@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 template <class Function>
-Function* function_of_module(const char* name, const std::string& wanted_for) {
+Function* import_module_function(const char* name, const std::string& wanted_for) {
   void* const module = load_module(TESSERA_IMPORT_FILE_NAME, wanted_for, ".obj works without it");
   return reinterpret_cast<Function*>(function_of(module, TESSERA_IMPORT_FILE_NAME, name));
 }
@@ -28,7 +28,7 @@ Function* function_of_module(const char* name, const std::string& wanted_for) {
 std::string import_by_module(const std::string& path) {
   std::string what = fs::path(path).extension().string();
   if (what.empty()) what = "\"" + path + "\"";
-  auto* const import = function_of_module<tessera_import_function>(TESSERA_IMPORT_NAME, what);
+  auto* const import = import_module_function<tessera_import_function>(TESSERA_IMPORT_NAME, what);
   try {
     return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
       return import(path.c_str(), take, user, message, size);
@@ -65,8 +65,8 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
 
 std::vector<std::string> model_extensions() {
   const std::string list = run_in_child("listing the formats of models", {}, [] {
-    auto* const formats = function_of_module<tessera_import_formats_function>(TESSERA_IMPORT_FORMATS_NAME,
-                                                                              "every other format");
+    auto* const formats = import_module_function<tessera_import_formats_function>(TESSERA_IMPORT_FORMATS_NAME,
+                                                                                  "every other format");
     return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
       return formats(take, user, message, size);
     });

@@ -12,6 +12,8 @@
 
 namespace tessera::program {
 
+inline constexpr int kMaxNodeDepth = 500;  ///< files whose nodes are nested deeper are rejected
+
 /// The triangles of one material: a range of the mesh's indices.
 struct ModelPart {
   std::string material_name;  ///< empty: the file names none

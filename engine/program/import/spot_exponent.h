@@ -1,10 +1,13 @@
-// Converts the two cone angles of a spot light to a spot exponent.
+// Conversions of the cone angles of spot lights.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace tessera::program {
+
+inline constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
 /// Returns the exponent for which cos(t)^exponent is 1/2 at the angle t where glTF's ramp,
 /// ((cos t - cos outer) / (cos inner - cos outer))^2, is 1/2; 0 if there is none. Angles in radians.
