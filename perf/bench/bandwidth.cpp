@@ -24,6 +24,10 @@ std::uint64_t passes_for(Roofline roofline, std::uint64_t bytes, std::uint64_t m
   return std::clamp<std::uint64_t>(moved / std::max<std::uint64_t>(bytes, 1), 1, 1000000);
 }
 
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
 }  // namespace
 
 BandwidthKernel::BandwidthKernel(Roofline roofline, int threads, std::uint64_t bytes, std::uint64_t moved)
@@ -68,16 +72,17 @@ BandwidthKernel bandwidth_kernel_for(const FrameWork& work, int threads, std::ui
   return BandwidthKernel(work.roofline, threads, bytes, moved);
 }
 
-double measure_bandwidth(Roofline roofline, int threads, std::uint64_t bytes) {
-  constexpr int kRuns = 12;
-  constexpr int kWarmUps = 3;  // map the pages
+double measure_bandwidth(Roofline roofline, int threads, std::uint64_t bytes, double seconds) {
+  constexpr int kRuns = 10;
   BandwidthKernel kernel(roofline, threads, bytes, std::uint64_t{512} << 20);
+  kernel.run();  // starts the threads
   std::vector<double> rates;
+  const Clock::time_point first = Clock::now();
   for (int run = 0; run < kRuns; ++run) {
     const Clock::time_point start = Clock::now();
+    if (run > 0 && seconds_between(first, start) >= seconds) break;
     kernel.run();
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    if (run >= kWarmUps) rates.push_back(kernel.bytes() / seconds * 1e-9);
+    rates.push_back(kernel.bytes() / seconds_between(start, Clock::now()) * 1e-9);
   }
   return statistics_of(rates).median;
 }

@@ -48,6 +48,7 @@ BandwidthKernel bandwidth_kernel_for(const FrameWork& work, int threads, std::ui
 /// Rate of all threads together in 10^9 bytes/s: the median of several runs.
 /// @param roofline  not Roofline::none
 /// @param bytes     as in BandwidthKernel
-double measure_bandwidth(Roofline roofline, int threads, std::uint64_t bytes);
+/// @param seconds   no run begins later than this, except the first
+double measure_bandwidth(Roofline roofline, int threads, std::uint64_t bytes, double seconds);
 
 }  // namespace tessera::bench

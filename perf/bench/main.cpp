@@ -87,9 +87,9 @@ class Bench {
     constexpr std::uint64_t kTileBytes = std::uint64_t{64} << 10;
     const std::uint64_t frame_bytes =
         4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
-    const auto rate_of = [](Roofline roofline, int threads, std::uint64_t bytes) -> std::optional<double> {
+    const auto rate_of = [&](Roofline roofline, int threads, std::uint64_t bytes) -> std::optional<double> {
       try {
-        return measure_bandwidth(roofline, threads, bytes);
+        return measure_bandwidth(roofline, threads, bytes, options_.measure.seconds);
       } catch (const std::bad_alloc&) {
         return {};  // keep the other results
       }

@@ -87,7 +87,8 @@ double barrier_seconds(int threads) {
 
 CoreModel measure_core_model(int threads) {
   constexpr std::uint64_t kBandwidthTestBytes = std::uint64_t{256} << 20;
-  return {.core_gb_per_second = measure_bandwidth(Roofline::memory_copies, 1, kBandwidthTestBytes),
+  constexpr double kSeconds = 1;
+  return {.core_gb_per_second = measure_bandwidth(Roofline::memory_copies, 1, kBandwidthTestBytes, kSeconds),
           .barrier_seconds = barrier_seconds(threads)};
 }
 
