@@ -15,11 +15,13 @@ add_library(tessera_bench_parts OBJECT ${tessera_bench_sources})
 tessera_add_objects(tessera_bench_internals
   engine/runtime/floating_point_mode.cpp engine/runtime/worker_pool.cpp framebuffer/bit_transpose.cpp
   framebuffer/bitplane.cpp framebuffer/prefetch_lines.cpp framebuffer/instruction_set.cpp)
+set_target_properties(tessera_bench_internals PROPERTIES UNITY_BUILD OFF)  # kernels, as in tessera_kernels
 add_executable(tessera_bench perf/bench/main.cpp engine/program/cli/machine_text.cpp
   $<TARGET_OBJECTS:tessera_bench_internals> $<TARGET_OBJECTS:tessera_bench_parts>)
 foreach(target tessera_bench_parts tessera_bench)
   target_link_libraries(${target} PRIVATE
     tessera_options tessera_scene tessera CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)  # the measured code is in the library
 endforeach()
 if(TESSERA_OSMESA_INCLUDE)
   target_include_directories(tessera_bench_parts SYSTEM PRIVATE ${TESSERA_OSMESA_INCLUDE})
