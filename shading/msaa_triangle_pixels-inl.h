@@ -143,8 +143,8 @@ struct MsaaTrianglePixels {
   }
 
  private:
-  /// Removes the lanes that fail the depth test from `mask`, and stores the keys of the others. Returns the
-  /// depth keys after the test.
+  /// Removes the lanes that fail the depth test from `mask`. If the draw writes depth, stores the keys of the
+  /// lanes left in `mask`. Returns the keys in the depth buffer afterwards, of all lanes.
   HWY_INLINE Int test_depth(std::int32_t* depth_at, Int key, [[maybe_unused]] Int writes_depth,
                             LaneMask& mask) const {
     const Int before = hn::Load(kInt, depth_at);

@@ -40,8 +40,8 @@ ColorWrite fragment_color_write(const TileDraw& draw) {
   return is_packed ? ColorWrite::constant : ColorWrite::evaluated;
 }
 
-/// Whether the draw blends by source * alpha + destination * (1 - alpha), with interpolated or constant
-/// colours and without other operations on colours.
+/// Whether the draw blends by source * alpha + destination * (1 - alpha) into 8-bit RGB without alpha, with
+/// interpolated or constant colours, and without texture, dithering or logic operation.
 bool is_plain_blend(const PixelPathFrame& frame, const TileDraw& draw) {
   const FragmentOps& ops = *draw.ops;
   if (!is_rgb8(frame.layout) || draw.texture != nullptr) return false;
@@ -73,7 +73,9 @@ bool can_texture_immediately(const PixelPathFrame& frame, const TileDraw& draw) 
   return draw.source == ColorSource::constant || draw.source == ColorSource::interpolated;
 }
 
-/// Points and lines of packed colours, and lines of interpolated colours, are stored immediately.
+/// Without fragment operations and with one sample, points and lines of packed colours are stored pixel by
+/// pixel, and so are lines of interpolated colours that are neither deferred nor colour indices. All others
+/// become blocks of fragments.
 PixelPath choose_point_or_line_path(const PixelPathFrame& frame, const TileDraw& draw, PixelPath path) {
   const bool is_line = draw.topology == Topology::lines;
   const bool has_plain_colors = !draw.deferred && !draw.index[0];

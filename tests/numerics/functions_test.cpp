@@ -115,7 +115,7 @@ TEST(MathFunctions, PaletteDistances) {
                    (found - least) / (2 * 0x1p-24L * (2 * std::sqrt(3.0L) * root + 5 * found) + 1e-30L));
     }
   }
-  expect_within("squared distance of palette entries beyond the least, of its roundings", worst, 1, "");
+  expect_within("squared distance of palette entries beyond the least, error / bound", worst, 1, "");
 }
 
 }  // namespace

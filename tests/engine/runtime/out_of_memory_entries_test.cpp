@@ -33,9 +33,8 @@ std::vector<FrameBufferFormat> formats() {
   all[2].color_bits = 4;
   all[2].dither = Dither::bayer2;
   all[2].accumulation_bits = 0;
-  all[2].palette = {{0, 0, 0, 1},
-                    {0.3f, 0.7f, 0.1f, 1},
-                    {1, 1, 1, 1}};  // the search of a large palette makes thousands of allocations
+  // Building the search structure of a large palette would make thousands of allocations.
+  all[2].palette = {{0, 0, 0, 1}, {0.3f, 0.7f, 0.1f, 1}, {1, 1, 1, 1}};
   all[3].color_bits = 2;
   all[3].depth = DepthFormat::none;
   all[3].stencil_bits = 0;
