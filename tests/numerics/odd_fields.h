@@ -298,4 +298,7 @@ void add_fragments(Fields& f, const std::string& name, const char* call, const S
       name + ".scissor", call, [at](InterfaceCase& w) { return &at(w).scissor; }, anything, not_negative);
 }
 
+/// The whole table (odd_draw_fields.cpp).
+std::vector<Field> all_fields();
+
 }  // namespace tessera::test

@@ -2,7 +2,7 @@
 // The result is identical on every instruction set and tile size, with immediate and deferred shading.
 #include <gtest/gtest.h>
 
-#include "tests/numerics/odd_draw_fields.h"
+#include "tests/numerics/odd_fields.h"
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {

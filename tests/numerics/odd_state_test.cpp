@@ -3,7 +3,7 @@
 // changes.
 #include <gtest/gtest.h>
 
-#include "tests/numerics/odd_draw_fields.h"
+#include "tests/numerics/odd_fields.h"
 #include "tests/raster/random_triangles.h"
 
 namespace tessera::test {

@@ -1,12 +1,11 @@
 // Rest of the table in odd_fields.h: frame buffers, cameras, draws, bitmaps, images, textures, targets and
 // renderers.
-#pragma once
-
 #include "tests/numerics/odd_fields.h"
 
 namespace tessera::test {
+namespace {
 
-inline void add_draw(Fields& f) {
+void add_draw(Fields& f) {
   [[maybe_unused]] const auto know = [](const DrawState& s, const PolygonOffset& o, const ShadowOn& on,
                                         const Camera& c, const Matrix& m) {
     [[maybe_unused]] const auto& [material, back_material, transform, shading, lighting, color_material,
@@ -84,9 +83,9 @@ inline void add_draw(Fields& f) {
 }
 
 /// Strides that are too short for rows of `row` bytes; memory outside the image would be read.
-inline std::vector<std::ptrdiff_t> short_strides(std::ptrdiff_t row) { return {1, -1, row - 1, 1 - row, 2}; }
+std::vector<std::ptrdiff_t> short_strides(std::ptrdiff_t row) { return {1, -1, row - 1, 1 - row, 2}; }
 
-inline void add_pixels(Fields& f) {
+void add_pixels(Fields& f) {
   [[maybe_unused]] const auto know = [](const Bitmap& b, const PixelImage& p, const TextureImage& t,
                                         const TextureSampler& s, const ImageTarget& i) {
     [[maybe_unused]] const auto& [bits, bitmap_width, bitmap_height, bitmap_stride, bitmap_x, bitmap_y,
@@ -162,7 +161,7 @@ inline void add_pixels(Fields& f) {
       "target.region", kFinish, [](InterfaceCase& w) { return &w.target.region; }, anything, not_negative);
 }
 
-inline void add_buffer_and_renderer(Fields& f) {
+void add_buffer_and_renderer(Fields& f) {
   [[maybe_unused]] const auto know = [](const FrameBufferFormat& b, const RendererOptions& o) {
     [[maybe_unused]] const auto& [width, height, color_mode, color_bits, palette, depth, stencil_bits,
                                   alpha_bits, dither, accumulation_bits, samples] = b;
@@ -216,7 +215,9 @@ inline void add_buffer_and_renderer(Fields& f) {
            {0, 1, 48, std::numeric_limits<std::uint32_t>::max()});
 }
 
-inline std::vector<Field> all_fields() {
+}  // namespace
+
+std::vector<Field> all_fields() {
   Fields fields;
   add_buffer_and_renderer(fields);
   add_draw(fields);
