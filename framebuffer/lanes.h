@@ -16,7 +16,11 @@
 // x86 takes the scalar path, which fuses with std::fma.
 #ifndef TESSERA_LANES_CONFIGURED
 #define TESSERA_LANES_CONFIGURED
+#ifdef TESSERA_WITHOUT_AVX512
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_AVX3)
+#else
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#endif
 #define HWY_IS_DEBUG_BUILD 0  // Highway's asserts call its library, which is not linked
 #define HWY_BROKEN_EMU128 1   // the baseline of every compiler is a single lane
 // Vectors on x86 only: kernels depend on the widths and layouts of its vectors (raster/lane_packing-inl.h).
