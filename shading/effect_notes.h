@@ -27,8 +27,8 @@ class EffectNotes {
   void active(Effect effect, EffectReason reason = EffectReason::requested) const {
     add({.effect = effect, .reason = reason});
   }
-  void skipped(Effect effect, EffectReason reason) const {
-    add({.effect = effect, .active = false, .reason = reason});
+  void skipped(Effect effect, EffectReason reason, std::string_view cause = {}) const {
+    add({.effect = effect, .active = false, .reason = reason, .cause = cause});
   }
 
  private:

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "framebuffer/instruction_set.h"
@@ -160,12 +161,21 @@ struct LightingProgram {
   float index_modulus = 2;                ///< 2^bits of the buffer
 };
 
+/// Proven reach of a light on a surface (light_reach.h).
+enum class LightReach : std::uint8_t {
+  unknown,
+  behind,       ///< behind every normal: no diffuse and no specular light
+  outside_cone  ///< every point is outside the light's cone: no light at all
+};
+
 /// Plans a surface: the program holds only what lights and material need.
 /// @param notes         receives the effects of each light
 /// @param term_storage  memory for the terms; its contents are discarded
+/// @param reach         per light; empty: nothing is proven
 LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked,
                               const std::vector<EyeLight>& lights, const LightingModel& model,
-                              const EffectNotes& notes, std::vector<LightTerm> term_storage = {});
+                              const EffectNotes& notes, std::vector<LightTerm> term_storage = {},
+                              std::span<const LightReach> reach = {});
 
 /// The material of a surface whose colour is an index.
 struct IndexMaterial {
@@ -176,7 +186,8 @@ struct IndexMaterial {
 /// plan_lighting() for lighting of indices.
 LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights,
                                     const LightingModel& model, const EffectNotes& notes,
-                                    std::vector<LightTerm> term_storage = {});
+                                    std::vector<LightTerm> term_storage = {},
+                                    std::span<const LightReach> reach = {});
 
 /// Lights the first `count` points of the batch, whole vectors of lanes: reads the fields that the program
 /// needs, writes the colour or index. Unused points may hold any bits. Bit-identical to

@@ -178,8 +178,9 @@ void set_highlight(LightTerm& term, const LightingModel& model, float shininess)
 
 /// Adds the term of one light to the program, unless it cannot contribute or is constant.
 /// @param number  number of the light, for notes
-void plan_term(LightingProgram& program, const EyeLight& light, int number, const SurfaceMaterial& material,
-               const TrackedColors& tracked, const LightingModel& model, const EffectNotes& notes) {
+void plan_term(LightingProgram& program, const EyeLight& light, int number, LightReach reach,
+               const SurfaceMaterial& material, const TrackedColors& tracked, const LightingModel& model,
+               const EffectNotes& notes) {
   const auto note_skipped = [&](EffectReason reason) {
     notes.add({.effect = Effect::light, .active = false, .reason = reason, .light = number});
   };
@@ -195,6 +196,8 @@ void plan_term(LightingProgram& program, const EyeLight& light, int number, cons
     term.ambient = term.tracked_ambient = {};
     if (has_only_ambient) return note_skipped(EffectReason::constant_ambient);
   }
+  if (reach == LightReach::outside_cone) return note_skipped(EffectReason::light_outside_cone);
+  if (reach == LightReach::behind && !has_ambient(term)) return note_skipped(EffectReason::light_behind);
   if (has_specular(term)) term.highlight = highlight_kind(model);
   set_light(term, light);
   set_highlight(term, model, material.shininess);
@@ -210,7 +213,7 @@ void plan_term(LightingProgram& program, const EyeLight& light, int number, cons
 LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors& tracked,
                            const std::vector<EyeLight>& lights, EyeLight (&convert)(const EyeLight&),
                            const LightingModel& model, const EffectNotes& notes,
-                           std::vector<LightTerm> term_storage) {
+                           std::vector<LightTerm> term_storage, std::span<const LightReach> reach) {
   LightingProgram program;
   program.terms = std::move(term_storage);
   program.terms.clear();
@@ -221,7 +224,8 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
   if (!tracked.emission) program.base = program.base + material.emission;
   if (!tracked.ambient) program.base = program.base + model.scene_ambient * material.ambient;
   for (std::size_t number = 0; number < lights.size(); ++number)
-    plan_term(program, convert(lights[number]), static_cast<int>(number), material, tracked, model, notes);
+    plan_term(program, convert(lights[number]), static_cast<int>(number),
+              reach.empty() ? LightReach::unknown : reach[number], material, tracked, model, notes);
   program.needs_position |= program.needs_view;
   return program;
 }
@@ -230,13 +234,14 @@ LightingProgram plan_terms(const SurfaceMaterial& material, const TrackedColors&
 
 LightingProgram plan_lighting(const SurfaceMaterial& material, const TrackedColors& tracked,
                               const std::vector<EyeLight>& lights, const LightingModel& model,
-                              const EffectNotes& notes, std::vector<LightTerm> term_storage) {
-  return plan_terms(material, tracked, lights, unchanged, model, notes, std::move(term_storage));
+                              const EffectNotes& notes, std::vector<LightTerm> term_storage,
+                              std::span<const LightReach> reach) {
+  return plan_terms(material, tracked, lights, unchanged, model, notes, std::move(term_storage), reach);
 }
 
 LightingProgram plan_index_lighting(const IndexMaterial& material, const std::vector<EyeLight>& lights,
                                     const LightingModel& model, const EffectNotes& notes,
-                                    std::vector<LightTerm> term_storage) {
+                                    std::vector<LightTerm> term_storage, std::span<const LightReach> reach) {
   const auto [ambient, diffuse, specular] = material.indexes;
   // Red sums d, green sums s, which also scales the diffuse ramp. Ramps between equal indices need no term.
   SurfaceMaterial surface{
@@ -246,7 +251,7 @@ LightingProgram plan_index_lighting(const IndexMaterial& material, const std::ve
   LightingModel dark = model;
   dark.scene_ambient = {};
   LightingProgram program =
-      plan_terms(surface, {}, lights, to_luminance, dark, notes, std::move(term_storage));
+      plan_terms(surface, {}, lights, to_luminance, dark, notes, std::move(term_storage), reach);
   program.index = true;
   program.indexes = material.indexes;
   program.index_modulus = material.modulus;

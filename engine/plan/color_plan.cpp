@@ -6,8 +6,11 @@
 #include <glm/mat4x4.hpp>
 
 #include "engine/plan/eye_space.h"
+#include "engine/plan/light_facts.h"
+#include "engine/plan/vertex_facts.h"
 #include "engine/record/matrix.h"
 #include "shading/fragment_scalar.h"
+#include "shading/lighting_reference.h"
 
 namespace tessera::detail {
 namespace {
@@ -52,31 +55,34 @@ void note_unused_colors(const DrawPlan& plan, const RecordedDraw& draw, const Co
 }
 
 void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
-                 const EffectNotes& notes) {
+                 const ColorOptions& options, const EffectNotes& notes) {
   const LightModel& model = draw.scene_state->light_model;
   const glm::dmat4 view = to_glm(draw.scene_state->camera.view);
   plan.lights.clear();
   for (const Light& light : draw.scene_state->lights) plan.lights.push_back(eye_light(light, view));
+  if (options.elide) prove_light_reach(plan, draw, options.sampled);
   const TrackedColors tracked =
       draw.mesh.has_colors() ? tracked_colors(draw.state.color_material) : TrackedColors{};
   const bool unit_normals = draw.state.normalize || draw.state.shading == Shading::phong;
   const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == SpecularModel::phong,
                                unit_normals};
-  const auto set_program = [&](LightingProgram& program, const Material& material, bool index,
+  const auto set_program = [&](LightingProgram& program, const Material& material, int face,
                                const EffectNotes& face_notes) {
-    if (index) {
+    if (plan.is_index[face]) {
       face_notes.active(Effect::index_lighting);
-      program = plan_index_lighting({*material.index_ramp, material.shininess, layout.index_modulus()},
-                                    plan.lights, lighting, face_notes, std::move(program.terms));
+      program =
+          plan_index_lighting({*material.index_ramp, material.shininess, layout.index_modulus()}, plan.lights,
+                              lighting, face_notes, std::move(program.terms), plan.light_reach[face]);
     } else {
       program = plan_lighting(surface(material), tracked, plan.lights, lighting, face_notes,
-                              std::move(program.terms));
+                              std::move(program.terms), plan.light_reach[face]);
     }
+    program.renormalize = draw.state.shading == Shading::phong;
   };
-  set_program(plan.front, draw.state.material, plan.is_index[0], notes);
+  set_program(plan.front, draw.state.material, 0, notes);
   if (plan.two_sided) {
     notes.active(Effect::two_sided_lighting);
-    set_program(plan.back, back_material(draw.state), plan.is_index[1], notes.for_back_faces());
+    set_program(plan.back, back_material(draw.state), 1, notes.for_back_faces());
     plan.back.negate_normal = true;
   }
   plan.uses_vertex_colors = tracked.any() && !plan.only_indices();
@@ -99,6 +105,20 @@ bool has_constant_color(const DrawPlan& plan) {
   if (!plan.back.terms.empty() || plan.is_index[0] != plan.is_index[1]) return false;
   if (plan.only_indices()) return unlit_index(plan.back) == unlit_index(plan.front);
   return plan.back.base == plan.front.base && plan.alpha[0] == plan.alpha[1];
+}
+
+/// The one colour of a lit draw whose normals are all equal, under directional lights and an infinite viewer.
+/// It has the bits of every pixel: interpolation keeps constants.
+std::optional<Rgb> equal_lit_color(const DrawPlan& plan, const RecordedDraw& draw) {
+  const LightingProgram& program = plan.front;
+  if (draw.mesh.vertices == 0 || !draw.mesh.normals || plan.two_sided || plan.is_index[0])
+    return std::nullopt;
+  const bool alpha_varies = plan.float_colors && plan.vertex_alpha;
+  if (program.needs_position || program.tracked || alpha_varies) return std::nullopt;
+  if (!equal_normal(draw.mesh)) return std::nullopt;
+  float normal[3][kVertexBatch];
+  eye_normals(InstructionSet::scalar)(plan.eye, draw.mesh.normals, 1, normal[0], normal[1], normal[2]);
+  return light_point_reference(program, {.normal = {normal[0][0], normal[1][0], normal[2][0]}});
 }
 
 /// The stored value depends on the value before, or on the position of the pixel, or it includes alpha.
@@ -162,13 +182,18 @@ void plan_unstored_color(DrawPlan& plan, const RecordedDraw& draw, const EffectN
 /// Plans what colours are computed from: colour indices, vertex colours, or materials and lights.
 /// @return  the colour before texturing, if the draw has only one
 std::optional<Rgb> plan_color_inputs(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
-                                     const EffectNotes& notes) {
+                                     const ColorOptions& options, const EffectNotes& notes) {
   const DrawState& state = draw.state;
   note_unused_colors(plan, draw, layout, notes);
   if (state.lighting) {
-    plan_lights(plan, draw, layout, notes);
+    plan_lights(plan, draw, layout, options, notes);
     plan.lit = !has_constant_color(plan);
-    if (plan.lit) return std::nullopt;
+    if (plan.lit) {
+      const std::optional<Rgb> color = options.elide ? equal_lit_color(plan, draw) : std::nullopt;
+      plan.lit = !color;
+      if (color) notes.active(Effect::lighting, EffectReason::equal_normals);
+      return color;
+    }
     plan.two_sided = false;
     if (plan.is_index[0]) plan.constant_index = unlit_index(plan.front);
     notes.skipped(Effect::lighting, EffectReason::independent_of_surface);
@@ -181,6 +206,15 @@ std::optional<Rgb> plan_color_inputs(DrawPlan& plan, const RecordedDraw& draw, c
   }
   plan.uses_vertex_colors = plan.vertex_alpha = draw.mesh.has_colors();
   plan.alpha[0] = plan.alpha[1] = clamp_unit(state.material.diffuse.a);
+  const auto equal = options.elide && plan.uses_vertex_colors && draw.mesh.vertices > 0
+                         ? equal_color(draw.mesh)
+                         : std::nullopt;
+  if (equal) {
+    plan.uses_vertex_colors = plan.vertex_alpha = false;
+    plan.alpha[0] = plan.alpha[1] = clamp_unit((*equal)[3]);
+    notes.active(Effect::vertex_colors, EffectReason::equal_colors);
+    return Rgb{(*equal)[0], (*equal)[1], (*equal)[2]};
+  }
   if (plan.uses_vertex_colors) {
     notes.active(Effect::vertex_colors);
     return std::nullopt;
@@ -225,11 +259,12 @@ void plan_interpolated_colors(DrawPlan& plan, const ColorLayout& layout, bool sa
   // Greys and palette entries are not linear in the colour: they are evaluated per visible pixel. So is a
   // colour that the samples of a pixel share, unless it is merely stored.
   const bool is_linear = !layout.index && !layout.luminance;
-  const bool needs_floats = plan.float_colors || plan.textures_per_pixel;
+  const bool needs_floats = plan.float_colors || plan.unit_colors || plan.textures_per_pixel;
   plan.scaled_colors = is_linear && inside_triangles && !needs_floats;
   const bool merely_stored = !plan.has_ops && plan.write_mask == 0xffffffffu;
   const bool modifies_shared_color = sampled && !merely_stored;
-  const bool shades_visible = !is_linear || plan.textures_per_pixel || modifies_shared_color;
+  const bool is_carried = plan.textures_per_pixel || plan.unit_colors;
+  const bool shades_visible = !is_linear || is_carried || modifies_shared_color;
   plan.deferred = shades_visible && !prevents_deferral(plan, layout);
   notes.active(Effect::shading,
                plan.deferred ? EffectReason::interpolated_per_pixel : EffectReason::interpolated);
@@ -254,10 +289,10 @@ void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   plan.is_index[1] = plan.two_sided ? back_material(state).index_ramp.has_value() : plan.is_index[0];
 }
 
-void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout, bool sampled,
-                const EffectNotes& notes) {
+void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
+                const ColorOptions& options, const EffectNotes& notes) {
   if (plan.write_mask == 0) return plan_unstored_color(plan, draw, notes);
-  if (const std::optional<Rgb> color = plan_color_inputs(plan, draw, layout, notes)) {
+  if (const std::optional<Rgb> color = plan_color_inputs(plan, draw, layout, options, notes)) {
     notes.active(Effect::shading, EffectReason::per_draw);
     return set_constant_color(plan, *color, layout);
   }
@@ -266,11 +301,10 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   plan.face_normals = generates_normals && shading == Shading::flat && plan.topology == Topology::triangles;
   plan.smooth_normals = generates_normals && !plan.face_normals;
   const bool phong = shading == Shading::phong && plan.lit;
-  plan.front.renormalize = plan.back.renormalize = phong;
   const bool one_color_each = shading == Shading::flat || plan.topology == Topology::points;
   if (one_color_each) plan_flat_colors(plan, notes);
   else if (phong) plan_pixel_lighting(plan, layout, notes);
-  else plan_interpolated_colors(plan, layout, sampled, notes);
+  else plan_interpolated_colors(plan, layout, options.sampled, notes);
   if (generates_normals) note_generated_normals(plan, notes);
 }
 

@@ -4,6 +4,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include "engine/plan/alpha_facts.h"
 #include "engine/plan/color_plan.h"
 #include "engine/plan/eye_space.h"
 #include "engine/plan/fragment_plan.h"
@@ -88,12 +89,13 @@ void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
 }
 
 /// Plans the fragment operations and the polygon offset.
+/// @param alpha  alpha of all fragments, if it is known
 void plan_operations(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target,
-                     const EffectNotes& notes) {
+                     const std::optional<EqualAlpha>& alpha, const EffectNotes& notes) {
   const DrawState& state = draw.state;
   if (plan.write_mask != 0 && plan.write_mask != 0xffffffffu) notes.active(Effect::plane_masks);
   const FragmentPlan fragments =
-      plan_fragments(state, target, plan.write_mask != 0, plan.only_indices(), notes);
+      plan_fragments(state, target, plan.write_mask != 0, plan.only_indices(), alpha, notes);
   plan.ops = fragments.ops;
   plan.uses_stencil = fragments.uses_stencil;
   if (plan.uses_depth && plan.topology == Topology::triangles) {
@@ -105,29 +107,30 @@ void plan_operations(DrawPlan& plan, const RecordedDraw& draw, const FrameBuffer
   plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines;
   const bool has_samples = target.format.samples > 1;
   const bool fills_triangles = plan.topology == Topology::triangles && !plan.outlines && !draw.pixels;
-  const bool only_tests_stencil = fragments.is_stencil_only && !plan.has_offset();
+  const bool only_tests_stencil = fragments.is_stencil_only && !fragments.is_elided && !plan.has_offset();
   plan.float_colors = plan.has_ops && !(only_tests_stencil && fills_triangles && !has_samples);
+  plan.unit_colors = fragments.is_elided && !plan.float_colors;
   if (has_samples) notes.add({.effect = Effect::multisampling, .samples = target.format.samples});
 }
 
 /// Plans the texture and the colours of a mesh.
-void plan_shading(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target,
+void plan_shading(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target, bool elide,
                   const EffectNotes& notes) {
   const bool stores_colors = plan.write_mask != 0 && !plan.only_indices();
   const bool blends_or_stores_alpha = stores_colors && (plan.ops.blend || target.layout.alpha_bits > 0);
   const bool needs_alpha = plan.ops.alpha_test || blends_or_stores_alpha;
   plan.texture = plan_texture(draw, {.colors = stores_colors, .alpha = needs_alpha}, notes);
   plan.float_colors |= plan.has_ops && plan.texture.use == TexturePlan::Use::texels;
-  plan_color(plan, draw, target.layout, target.format.samples > 1, notes);
+  plan_color(plan, draw, target.layout, {.sampled = target.format.samples > 1, .elide = elide}, notes);
 }
 
 /// No buffer can change.
 bool changes_nothing(const DrawPlan& plan) {
   if (plan.rect.empty()) return true;
-  if (plan.uses_stencil && (plan.ops.faces[0].writes() || plan.ops.faces[1].writes())) return false;
-  const bool fails_depth_test = plan.uses_depth && plan.depth_test == Compare::never;
   const bool fails_alpha_test = plan.ops.alpha_test && plan.ops.alpha_func == Compare::never;
-  if (fails_depth_test || fails_alpha_test) return true;
+  if (fails_alpha_test) return true;
+  if (plan.uses_stencil && (plan.ops.faces[0].writes() || plan.ops.faces[1].writes())) return false;
+  if (plan.uses_depth && plan.depth_test == Compare::never) return true;
   return plan.write_mask == 0 && !(plan.uses_depth && plan.depth_write);
 }
 
@@ -161,6 +164,11 @@ std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t pl
 void DrawPlan::reset() {
   DrawPlan plan;
   plan.lights.swap(lights);
+  plan.light_candidates.swap(light_candidates);
+  for (int face = 0; face < 2; ++face) {
+    plan.light_reach[face].swap(light_reach[face]);
+    plan.light_reach[face].clear();
+  }
   plan.front.terms.swap(front.terms);
   plan.back.terms.swap(back.terms);
   plan.lights.clear();
@@ -169,11 +177,17 @@ void DrawPlan::reset() {
   *this = std::move(plan);
 }
 
-void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target, bool capture_normals,
-               const EffectNotes& notes) {
+void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target,
+               const PlanOptions& options, const EffectNotes& notes) {
   const DrawState& state = draw.state;
   plan.reset();
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
+  std::optional<EqualAlpha> alpha;
+  if (options.elide && (state.alpha_test || state.blend)) alpha = equal_fragment_alpha(draw);
+  if (alpha && plan.write_mask != 0 && keeps_stored_colors(state, target, alpha->value)) {
+    plan.write_mask = 0;
+    notes.skipped(Effect::blending, EffectReason::alpha_is_zero, alpha->cause);
+  }
   if (draw.pixels) {
     plan_pixel_places(plan, *draw.pixels, target);
   } else {
@@ -185,13 +199,13 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
   if (state.scissor) plan.rect = intersect(plan.rect, raster_rect(*state.scissor, target.format.height));
   plan_depth(plan, state, target);
   note_depth(plan, state, target, notes);
-  plan_operations(plan, draw, target, notes);
+  plan_operations(plan, draw, target, alpha, notes);
   if (draw.pixels) plan_pixel_colors(plan, *draw.pixels, notes);
-  else plan_shading(plan, draw, target, notes);
+  else plan_shading(plan, draw, target, options.elide, notes);
   if (plan.texture.use == TexturePlan::Use::one_color)
     notes.active(Effect::texture,
                  plan.textures_per_pixel ? EffectReason::one_color_per_pixel : EffectReason::folded);
-  plan.varyings = varying_layout(plan, capture_normals);
+  plan.varyings = varying_layout(plan, options.capture_normals);
   if (plan.varyings.texcoord >= 0) plan.texture.texture.attribute = plan.varyings.texcoord;
   plan.is_noop = changes_nothing(plan);
   if (plan.is_noop) notes.skipped(Effect::draw, EffectReason::no_pixel_can_change);

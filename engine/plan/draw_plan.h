@@ -15,6 +15,13 @@
 
 namespace tessera::detail {
 
+/// A light that may turn out to miss one face of a draw.
+struct LightCandidate {
+  std::size_t light;
+  int face;  ///< 0 front, 1 back
+  LightReach reach;
+};
+
 struct DrawPlan {
   // Geometry.
   VertexTransform transform;
@@ -48,6 +55,9 @@ struct DrawPlan {
   /// Operations take colours r g b a of 0 to 1. False for a stencil test alone of untextured triangles with
   /// one sample, which stores packed colors.
   bool float_colors = false;
+  /// Colours are 0..1 at the pixels, as operations would have taken them that are left out because of the
+  /// draw's data. Colours in levels round differently.
+  bool unit_colors = false;
   FragmentOps ops;
   bool uses_stencil = false;  ///< tests or writes the stencil buffer
   float offset_factor = 0;
@@ -61,6 +71,8 @@ struct DrawPlan {
   bool lit = false;        ///< lighting runs, at vertices, triangles or pixels
   bool two_sided = false;  ///< back faces have their own lighting program
   std::vector<EyeLight> lights;
+  std::vector<LightReach> light_reach[2];  ///< per face: what is proven about each light; empty: nothing
+  std::vector<LightCandidate> light_candidates;  ///< memory of prove_light_reach()
   LightingProgram front, back;
   Rgb constant_color{};      ///< ColorSource::constant: 0 to 1
   bool is_index[2] = {};     ///< per face, [0] front, [1] back: the colour is an index
@@ -103,11 +115,15 @@ struct DrawPlan {
   void reset();
 };
 
-/// @param plan             is replaced
-/// @param capture_normals  the frame captures normals
-/// @param notes            receives the effects of the draw
-void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target, bool capture_normals,
-               const EffectNotes& notes);
+struct PlanOptions {
+  bool capture_normals = false;  ///< the frame captures normals
+  bool elide = true;             ///< leave out effects that the data of a draw make unnecessary
+};
+
+/// @param plan   is replaced
+/// @param notes  receives the effects of the draw
+void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target,
+               const PlanOptions& options, const EffectNotes& notes);
 
 /// Bits of stored colour words that may change; all 32 bits if all planes may.
 std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask,

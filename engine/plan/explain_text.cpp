@@ -13,37 +13,37 @@ struct EffectWords {
 };
 constexpr EffectWords kEffects[] = {
     {Effect::draw, "draw", "draw"},
-    {Effect::planar_shadow, "planar-shadow", "planar shadow"},
-    {Effect::depth_test, "depth-test", "depth test"},
-    {Effect::depth_write, "depth-write", "depth write"},
-    {Effect::plane_masks, "plane-masks", "plane masks"},
-    {Effect::alpha_test, "alpha-test", "alpha test"},
-    {Effect::stencil_test, "stencil-test", "stencil test"},
+    {Effect::planar_shadow, "planar_shadow", "planar shadow"},
+    {Effect::depth_test, "depth_test", "depth test"},
+    {Effect::depth_write, "depth_write", "depth write"},
+    {Effect::plane_masks, "plane_masks", "plane masks"},
+    {Effect::alpha_test, "alpha_test", "alpha test"},
+    {Effect::stencil_test, "stencil_test", "stencil test"},
     {Effect::blending, "blending", "blending"},
     {Effect::dither, "dither", "dither"},
-    {Effect::logic_op, "logic-op", "logic operation"},
-    {Effect::alpha_planes, "alpha-planes", "alpha planes"},
-    {Effect::polygon_offset, "polygon-offset", "polygon offset"},
-    {Effect::polygon_mode, "polygon-mode", "polygon mode"},
+    {Effect::logic_op, "logic_op", "logic operation"},
+    {Effect::alpha_planes, "alpha_planes", "alpha planes"},
+    {Effect::polygon_offset, "polygon_offset", "polygon offset"},
+    {Effect::polygon_mode, "polygon_mode", "polygon mode"},
     {Effect::multisampling, "multisampling", "multisampling"},
     {Effect::bitmap, "bitmap", "bitmap"},
     {Effect::image, "image", "image"},
     {Effect::texture, "texture", "texture"},
-    {Effect::texture_coordinates, "texture-coordinates", "texture coordinates"},
-    {Effect::texture_lod, "texture-lod", "texture level of detail"},
+    {Effect::texture_coordinates, "texture_coordinates", "texture coordinates"},
+    {Effect::texture_lod, "texture_lod", "texture level of detail"},
     {Effect::lighting, "lighting", "lighting"},
-    {Effect::two_sided_lighting, "two-sided-lighting", "two-sided lighting"},
-    {Effect::index_lighting, "index-lighting", "index lighting"},
-    {Effect::vertex_colors, "vertex-colors", "vertex colours"},
-    {Effect::color_indices, "color-indices", "colour indices"},
-    {Effect::generated_normals, "generated-normals", "generated normals"},
+    {Effect::two_sided_lighting, "two_sided_lighting", "two-sided lighting"},
+    {Effect::index_lighting, "index_lighting", "index lighting"},
+    {Effect::vertex_colors, "vertex_colors", "vertex colours"},
+    {Effect::color_indices, "color_indices", "colour indices"},
+    {Effect::generated_normals, "generated_normals", "generated normals"},
     {Effect::shading, "shading", "shading"},
     {Effect::light, "light", ""},
-    {Effect::light_attenuation, "light-attenuation", " attenuation"},
-    {Effect::light_spot, "light-spot", " spot"},
-    {Effect::light_highlight, "light-highlight", " highlight"},
-    {Effect::light_ambient, "light-ambient", " ambient part"},
-    {Effect::light_tracked_colors, "light-tracked-colors", " vertex colours"},
+    {Effect::light_attenuation, "light_attenuation", " attenuation"},
+    {Effect::light_spot, "light_spot", " spot"},
+    {Effect::light_highlight, "light_highlight", " highlight"},
+    {Effect::light_ambient, "light_ambient", " ambient part"},
+    {Effect::light_tracked_colors, "light_tracked_colors", " vertex colours"},
 };
 
 struct ReasonWords {
@@ -54,57 +54,65 @@ struct ReasonWords {
 constexpr ReasonWords kReasons[] = {
     {EffectReason::requested, "requested", "on"},
     {EffectReason::disabled, "disabled", "off"},
-    {EffectReason::no_depth_buffer, "no-depth-buffer", "off, the frame buffer has no depth buffer"},
-    {EffectReason::passes_and_writes_nothing, "passes-and-writes-nothing",
+    {EffectReason::no_depth_buffer, "no_depth_buffer", "off, the frame buffer has no depth buffer"},
+    {EffectReason::passes_and_writes_nothing, "passes_and_writes_nothing",
      "skipped, it always passes and writes nothing"},
-    {EffectReason::always_passes, "always-passes", "skipped, it always passes"},
-    {EffectReason::replaces_destination, "replaces-destination",
+    {EffectReason::always_passes, "always_passes", "skipped, it always passes"},
+    {EffectReason::replaces_destination, "replaces_destination",
      "skipped, it replaces the stored colour with the new one"},
-    {EffectReason::stores_indices, "stores-indices", "skipped, colour indices are stored"},
-    {EffectReason::rgb_buffer, "rgb-buffer", "ignored, the frame buffer holds RGB"},
-    {EffectReason::no_pixel_can_change, "no-pixel-can-change", "skipped, it can change no pixel"},
-    {EffectReason::no_color_stored, "no-color-stored", "skipped, no colour plane can change"},
-    {EffectReason::color_and_alpha_unused, "color-and-alpha-unused",
+    {EffectReason::stores_indices, "stores_indices", "skipped, colour indices are stored"},
+    {EffectReason::rgb_buffer, "rgb_buffer", "ignored, the frame buffer holds RGB"},
+    {EffectReason::no_pixel_can_change, "no_pixel_can_change", "skipped, it can change no pixel"},
+    {EffectReason::no_color_stored, "no_color_stored", "skipped, no colour plane can change"},
+    {EffectReason::color_and_alpha_unused, "color_and_alpha_unused",
      "skipped, its colour and alpha are not used"},
-    {EffectReason::no_effect, "no-effect", "skipped, its one colour changes nothing"},
-    {EffectReason::not_in_mesh, "not-in-mesh", "the mesh has none"},
-    {EffectReason::no_faces, "no-faces", "none, points and lines have no faces; normals are 0 0 0"},
-    {EffectReason::draw_is_lit, "draw-is-lit", "ignored, the draw is lit"},
-    {EffectReason::draw_has_color_indices, "draw-has-color-indices", "ignored, the mesh has colour indices"},
-    {EffectReason::color_material_none, "color-material-none",
+    {EffectReason::no_effect, "no_effect", "skipped, its one colour changes nothing"},
+    {EffectReason::not_in_mesh, "not_in_mesh", "the mesh has none"},
+    {EffectReason::no_faces, "no_faces", "none, points and lines have no faces; normals are 0 0 0"},
+    {EffectReason::draw_is_lit, "draw_is_lit", "ignored, the draw is lit"},
+    {EffectReason::draw_has_color_indices, "draw_has_color_indices", "ignored, the mesh has colour indices"},
+    {EffectReason::color_material_none, "color_material_none",
      "ignored, the draw is lit and color_material is none"},
-    {EffectReason::material_has_index_ramp, "material-has-index-ramp",
+    {EffectReason::material_has_index_ramp, "material_has_index_ramp",
      "ignored, the material has an index_ramp"},
-    {EffectReason::independent_of_surface, "independent-of-surface",
+    {EffectReason::independent_of_surface, "independent_of_surface",
      "constant, no light depends on the surface"},
     {EffectReason::folded, "folded", "one colour, folded into the colours of vertices, faces or the draw"},
-    {EffectReason::one_color_per_pixel, "one-color-per-pixel", "one colour, applied at each pixel"},
-    {EffectReason::per_pixel, "per-pixel", "once per visible pixel"},
-    {EffectReason::per_fragment, "per-fragment",
+    {EffectReason::one_color_per_pixel, "one_color_per_pixel", "one colour, applied at each pixel"},
+    {EffectReason::per_pixel, "per_pixel", "once per visible pixel"},
+    {EffectReason::per_fragment, "per_fragment",
      "for every fragment, because the result depends on the order"},
-    {EffectReason::per_vertex, "per-vertex", "flat, at the vertices"},
-    {EffectReason::per_face, "per-face", "flat, once per triangle with its face normal"},
-    {EffectReason::per_provoking_vertex, "per-provoking-vertex",
+    {EffectReason::per_vertex, "per_vertex", "flat, at the vertices"},
+    {EffectReason::per_face, "per_face", "flat, once per triangle with its face normal"},
+    {EffectReason::per_provoking_vertex, "per_provoking_vertex",
      "flat, once per triangle at the provoking vertex of its polygon"},
-    {EffectReason::per_point, "per-point", "one colour per point"},
-    {EffectReason::per_draw, "per-draw", "one colour for the draw"},
-    {EffectReason::per_texel, "per-texel", "one colour per texel"},
+    {EffectReason::per_point, "per_point", "one colour per point"},
+    {EffectReason::per_draw, "per_draw", "one colour for the draw"},
+    {EffectReason::per_texel, "per_texel", "one colour per texel"},
     {EffectReason::interpolated, "interpolated", "colours interpolated as triangles are drawn"},
-    {EffectReason::interpolated_per_pixel, "interpolated-per-pixel",
+    {EffectReason::interpolated_per_pixel, "interpolated_per_pixel",
      "colours interpolated once per visible pixel"},
-    {EffectReason::face_normals, "face-normals", "face normals"},
-    {EffectReason::mean_normals, "mean-normals", "area-weighted means of the face normals at each position"},
+    {EffectReason::face_normals, "face_normals", "face normals"},
+    {EffectReason::mean_normals, "mean_normals", "area-weighted means of the face normals at each position"},
     {EffectReason::black, "black", "skipped, it adds black"},
-    {EffectReason::constant_ambient, "constant-ambient", "only a constant ambient part, added in advance"},
+    {EffectReason::constant_ambient, "constant_ambient", "only a constant ambient part, added in advance"},
     {EffectReason::directional, "directional", "directional"},
     {EffectReason::positional, "positional", "positional"},
-    {EffectReason::unit_attenuation, "unit-attenuation", "skipped, the factors are 1 0 0"},
-    {EffectReason::cutoff_180, "cutoff-180", "off, the cutoff is 180 degrees"},
-    {EffectReason::black_specular, "black-specular", "skipped, the specular product is black"},
-    {EffectReason::blinn_infinite_viewer, "blinn-infinite-viewer", "Blinn, infinite viewer"},
-    {EffectReason::blinn_local_viewer, "blinn-local-viewer", "Blinn, local viewer"},
-    {EffectReason::phong_infinite_viewer, "phong-infinite-viewer", "Phong, infinite viewer"},
-    {EffectReason::phong_local_viewer, "phong-local-viewer", "Phong, local viewer"},
+    {EffectReason::unit_attenuation, "unit_attenuation", "skipped, the factors are 1 0 0"},
+    {EffectReason::cutoff_180, "cutoff_180", "off, the cutoff is 180 degrees"},
+    {EffectReason::black_specular, "black_specular", "skipped, the specular product is black"},
+    {EffectReason::blinn_infinite_viewer, "blinn_infinite_viewer", "Blinn, infinite viewer"},
+    {EffectReason::blinn_local_viewer, "blinn_local_viewer", "Blinn, local viewer"},
+    {EffectReason::phong_infinite_viewer, "phong_infinite_viewer", "Phong, infinite viewer"},
+    {EffectReason::phong_local_viewer, "phong_local_viewer", "Phong, local viewer"},
+    {EffectReason::light_behind, "light_behind", "skipped, it is behind every normal"},
+    {EffectReason::light_outside_cone, "light_outside_cone", "skipped, no point is inside its cone"},
+    {EffectReason::alpha_is_one, "alpha_is_one", "skipped, alpha is 1 everywhere"},
+    {EffectReason::alpha_is_zero, "alpha_is_zero", "skipped with all colours, alpha is 0 everywhere"},
+    {EffectReason::every_fragment_passes, "every_fragment_passes", "skipped, every fragment passes"},
+    {EffectReason::every_fragment_fails, "every_fragment_fails", "skipped, every fragment fails"},
+    {EffectReason::equal_normals, "equal_normals", "once, all normals are equal"},
+    {EffectReason::equal_colors, "equal_colors", "one colour, all vertices have it"},
 };
 
 template <class Words, std::size_t size, class Key>
@@ -116,7 +124,7 @@ constexpr bool is_indexed_by(const Words (&words)[size], Key Words::*key) {
 static_assert(is_indexed_by(kEffects, &EffectWords::effect));
 static_assert(is_indexed_by(kReasons, &ReasonWords::reason));
 static_assert(std::size(kEffects) == static_cast<std::size_t>(Effect::light_tracked_colors) + 1);
-static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::phong_local_viewer) + 1);
+static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::equal_colors) + 1);
 
 const EffectWords& words_of(Effect effect) { return kEffects[static_cast<std::size_t>(effect)]; }
 const ReasonWords& words_of(EffectReason reason) { return kReasons[static_cast<std::size_t>(reason)]; }
@@ -169,16 +177,8 @@ std::string_view code(EffectReason reason) {
   return static_cast<std::size_t>(reason) < std::size(kReasons) ? words_of(reason).code : std::string_view();
 }
 
-std::string detail::explain_text(std::span<const EffectNote> notes) {
-  std::string text;
-  for (const EffectNote& note : notes)
-    text.append("  ")
-        .append(title(note))
-        .append(": ")
-        .append(numbers(note))
-        .append(phrase(note))
-        .append("\n");
-  return text;
+std::string detail::text_of(const EffectNote& note) {
+  return title(note).append(": ").append(numbers(note)).append(phrase(note));
 }
 
 }  // namespace tessera

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shading/fragment_scalar.h"
+
 namespace tessera::detail {
 namespace {
 
@@ -35,7 +37,15 @@ bool is_replacing(const FragmentOps& ops) {
   return keeps_source && drops_destination && sums;
 }
 
-void plan_blend(FragmentOps& ops, const BlendState& state) {
+/// The blend yields the destination colour.
+bool is_keeping(const FragmentOps& ops) {
+  const bool drops_source = ops.src_color == BlendFactor::zero && ops.src_alpha == BlendFactor::zero;
+  const bool keeps_destination = ops.dst_color == BlendFactor::one && ops.dst_alpha == BlendFactor::one;
+  const bool sums = ops.equation == BlendEquation::add || ops.equation == BlendEquation::reverse_subtract;
+  return drops_source && keeps_destination && sums;
+}
+
+void set_blend(FragmentOps& ops, const BlendState& state) {
   ops.src_color = state.src;
   ops.dst_color = state.dst;
   ops.src_alpha = state.src_alpha.value_or(state.src);
@@ -43,6 +53,36 @@ void plan_blend(FragmentOps& ops, const BlendState& state) {
   ops.equation = state.equation;
   ops.constant = {state.color.r, state.color.g, state.color.b, state.color.a};
   ops.blend = !is_replacing(ops);
+}
+
+void plan_blend(FragmentPlan& plan, const BlendState& state, const std::optional<EqualAlpha>& alpha,
+                const EffectNotes& notes) {
+  FragmentOps& ops = plan.ops;
+  set_blend(ops, state);
+  if (!ops.blend) return notes.skipped(Effect::blending, EffectReason::replaces_destination);
+  FragmentOps folded = ops;
+  if (alpha) fold_alpha(folded, alpha->value);
+  if (!is_replacing(folded)) return notes.active(Effect::blending);
+  ops.blend = false;
+  plan.is_elided = true;
+  notes.skipped(Effect::blending, EffectReason::alpha_is_one, alpha->cause);
+}
+
+void plan_alpha_test(FragmentPlan& plan, const AlphaTest& state, const std::optional<EqualAlpha>& alpha,
+                     const EffectNotes& notes) {
+  FragmentOps& ops = plan.ops;
+  ops.alpha_func = state.func;
+  ops.alpha_reference = state.ref;
+  ops.alpha_test = ops.alpha_func != Compare::always;
+  if (!ops.alpha_test) return notes.skipped(Effect::alpha_test, EffectReason::always_passes);
+  if (!alpha || ops.alpha_func == Compare::never) return notes.active(Effect::alpha_test);
+  if (!compares(alpha->value, ops.alpha_func, ops.alpha_reference)) {
+    ops.alpha_func = Compare::never;
+    return notes.skipped(Effect::alpha_test, EffectReason::every_fragment_fails, alpha->cause);
+  }
+  ops.alpha_test = false;
+  plan.is_elided = true;
+  notes.skipped(Effect::alpha_test, EffectReason::every_fragment_passes, alpha->cause);
 }
 
 int pattern_size(Dither dither) {
@@ -66,28 +106,30 @@ FragmentOps dither_ops(const FrameBufferState& target) {
   return ops;
 }
 
+bool keeps_stored_colors(const DrawState& state, const FrameBufferState& target, float alpha) {
+  const ColorLayout& layout = target.layout;
+  const int most_bits = std::max({layout.r_bits, layout.g_bits, layout.b_bits, layout.alpha_bits});
+  if (!state.blend || layout.index || layout.luminance || most_bits > 8) return false;
+  if (target.format.dither != Dither::none || state.logic_op != LogicOp::copy) return false;
+  FragmentOps ops;
+  set_blend(ops, *state.blend);
+  fold_alpha(ops, alpha);
+  return is_keeping(ops);
+}
+
 FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& target, bool writes_color,
-                            bool only_indices, const EffectNotes& notes) {
+                            bool only_indices, const std::optional<EqualAlpha>& alpha,
+                            const EffectNotes& notes) {
   FragmentPlan plan;
   FragmentOps& ops = plan.ops;
   if (writes_color && !only_indices) ops = dither_ops(target);
-  if (state.alpha_test) {
-    ops.alpha_func = state.alpha_test->func;
-    ops.alpha_reference = state.alpha_test->ref;
-    ops.alpha_test = ops.alpha_func != Compare::always;
-    if (ops.alpha_test) notes.active(Effect::alpha_test);
-    else notes.skipped(Effect::alpha_test, EffectReason::always_passes);
-  }
+  if (state.alpha_test) plan_alpha_test(plan, *state.alpha_test, alpha, notes);
   if (state.stencil) {
     plan_stencil(plan, *state.stencil, target.format.stencil_bits);
     if (ops.stencil) notes.active(Effect::stencil_test);
     else notes.skipped(Effect::stencil_test, EffectReason::passes_and_writes_nothing);
   }
-  if (writes_color && state.blend) {
-    plan_blend(ops, *state.blend);
-    if (ops.blend) notes.active(Effect::blending);
-    else notes.skipped(Effect::blending, EffectReason::replaces_destination);
-  }
+  if (writes_color && state.blend) plan_blend(plan, *state.blend, alpha, notes);
   if (writes_color && ops.dither) notes.active(Effect::dither);
   if (writes_color && only_indices && target.format.dither != Dither::none)
     notes.skipped(Effect::dither, EffectReason::stores_indices);

@@ -262,22 +262,35 @@ std::vector<EffectNote> Frame::effects(std::size_t draw_index) const {
     const FloatingPointMode mode;
     std::vector<EffectNote> notes;
     DrawPlan plan;
-    plan_draw(plan, recording_->draws[draw_index], *recording_->target, false, EffectNotes(&notes));
+    plan_draw(plan, recording_->draws[draw_index], *recording_->target, {}, EffectNotes(&notes));
     return notes;
+  });
+}
+
+DrawExplanation Frame::explanation(std::size_t draw_index) const {
+  check_draw_index("Frame::explanation", draw_index, recording_->draws.size());
+  return translate_bad_alloc("Frame::explanation", [&] {
+    const FloatingPointMode mode;
+    const RecordedDraw& draw = recording_->draws[draw_index];
+    std::vector<EffectNote> notes;
+    DrawPlan plan;
+    plan_draw(plan, draw, *recording_->target, {}, EffectNotes(&notes));
+    DrawExplanation explanation;
+    for (const EffectNote& note : notes)
+      explanation.effects.push_back({.note = note, .cause = cause_of(note), .text = text_of(note)});
+    for (const PixelPath& path : pixel_paths_of(draw, plan, *recording_->target))
+      explanation.code_paths.push_back(describe(path));
+    return explanation;
   });
 }
 
 std::string Frame::explain(std::size_t draw_index) const {
   check_draw_index("Frame::explain", draw_index, recording_->draws.size());
-  const std::vector<EffectNote> notes = effects(draw_index);
   return translate_bad_alloc("Frame::explain", [&] {
-    const FloatingPointMode mode;
-    const RecordedDraw& draw = recording_->draws[draw_index];
-    DrawPlan plan;
-    plan_draw(plan, draw, *recording_->target, false, EffectNotes(nullptr));
-    std::string text = explain_text(notes);
-    for (const PixelPath& path : pixel_paths_of(draw, plan, *recording_->target))
-      text += "  code path: " + describe(path) + "\n";
+    const DrawExplanation explanation = this->explanation(draw_index);
+    std::string text;
+    for (const EffectExplanation& effect : explanation.effects) text += "  " + effect.text + "\n";
+    for (const std::string& path : explanation.code_paths) text += "  code path: " + path + "\n";
     return text;
   });
 }

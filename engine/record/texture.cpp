@@ -136,6 +136,16 @@ bool is_one_color(const TextureState& texture) {
   return true;
 }
 
+bool is_opaque(const TextureState& texture) {
+  const TextureLevel& level = texture.levels.level[0];
+  for (std::int32_t y = 0; y < level.height; ++y) {
+    const std::uint32_t* const row = texture.texels.data() + std::ptrdiff_t{y} * level.stride;
+    if (!std::all_of(row, row + level.width, [](std::uint32_t word) { return word >> 24 == 255; }))
+      return false;
+  }
+  return true;
+}
+
 /// Sample at s = t = 0 under magnification. A linear filter yields the mean of the four texels around the
 /// corner of the image, as in the kernel.
 std::array<float, 4> color_at_origin(const TextureState& texture) {
@@ -171,6 +181,7 @@ std::unique_ptr<TextureState> make_texture(const TextureImage& image, const Text
   for (int i = 0; i < levels.last; ++i) fill_next_level(words, levels.level[i], levels.level[i + 1]);
   for (int i = 0; i <= levels.last; ++i) pad_level(words, levels.level[i], levels);
   if (is_one_color(*texture)) texture->one_color = color_of(words[0]);
+  if (texture->has_alpha()) texture->is_opaque = is_opaque(*texture);
   texture->at_origin = color_at_origin(*texture);
   return texture;
 }

@@ -19,6 +19,8 @@ struct TextureState {
   std::optional<std::array<float, 4>> one_color;  ///< if all texels are equal
   std::array<float, 4> at_origin{};  ///< magnified sample at s = t = 0, for draws without texcoords
 
+  bool is_opaque = true;  ///< alpha is 1 in all texels
+
   bool has_alpha() const { return channels == 2 || channels == 4; }
 };
 

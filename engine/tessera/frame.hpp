@@ -22,10 +22,20 @@ namespace tessera {
 
 class Renderer;
 
-/// Stable names in kebab case, for programs: "depth-test", "no-depth-buffer". Empty for values that are no
-/// enumerators.
+/// Stable names for programs: "depth_test", "no_depth_buffer". Empty for values that are no enumerators.
 TESSERA_API std::string_view code(Effect effect);
 TESSERA_API std::string_view code(EffectReason reason);
+
+/// An effect of a draw for programs and for people.
+struct EffectExplanation {
+  EffectNote note;
+  std::string cause;  ///< the field that decides: "lights[2].spot_cutoff", "depth.test", "mesh.normals"
+  std::string text;   ///< its line of Frame::explain, without the end of the line
+};
+struct DrawExplanation {
+  std::vector<EffectExplanation> effects;
+  std::vector<std::string> code_paths;  ///< one per polygon mode; none if the draw can change no pixel
+};
 
 /// Records the commands of a frame, in order. Nothing is rendered until Renderer::finish.
 /// - The frame buffer must outlive the frame. It may be moved, and must not be assigned to.
@@ -83,7 +93,9 @@ class TESSERA_API Frame {
   /// @param draw_index  from 0; bitmaps and images count as draws
   /// @throws Error  if the frame has no such draw
   std::vector<EffectNote> effects(std::size_t draw_index) const;
-  /// The text of effects(), one line per effect. Wording may change between versions; programs use effects().
+  /// effects() with their causes and texts, and the code paths of the draw's pixels.
+  DrawExplanation explanation(std::size_t draw_index) const;
+  /// The texts of explanation(), one line each. Wording may change between versions; programs use codes.
   std::string explain(std::size_t draw_index) const;
   std::size_t draw_count() const noexcept;
 

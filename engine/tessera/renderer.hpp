@@ -81,6 +81,10 @@ struct RendererOptions {
   int threads = 0;
   int tile_size = 0;  ///< pixels: 32, 64 or 128; 0: chosen per frame from its size and the threads
   InstructionSet instruction_set = InstructionSet::automatic;
+  /// Leave out effects that the data of a draw make unnecessary: lights that reach none of its points,
+  /// blending where alpha is 1, and others (EffectReason). Changes no bit of any picture. False: for
+  /// comparison, run every effect that the state requests. Frames with captures run every effect.
+  bool elide = true;
   /// Memory of the bins (triangle lists of tiles), bytes, at least kMinBinMemory.
   /// Frames that need more are rendered in several parts: slower, same bits.
   std::size_t bin_memory = std::size_t{256} << 20;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace tessera {
 
@@ -86,7 +87,15 @@ enum class EffectReason : std::uint8_t {
   blinn_infinite_viewer,      ///< (N.H)^shininess, viewer at infinity
   blinn_local_viewer,         ///< (N.H)^shininess, viewer at the eye
   phong_infinite_viewer,      ///< (R.E)^shininess, viewer at infinity
-  phong_local_viewer          ///< (R.E)^shininess, viewer at the eye
+  phong_local_viewer,         ///< (R.E)^shininess, viewer at the eye
+  light_behind,               ///< the light is behind every normal of the draw
+  light_outside_cone,         ///< every point of the draw is outside the light's cone
+  alpha_is_one,               ///< alpha is 1 everywhere: the blend equation yields the source colour
+  alpha_is_zero,              ///< alpha is 0 everywhere: the blend equation yields the stored colour
+  every_fragment_passes,      ///< the alpha of all fragments passes the test
+  every_fragment_fails,       ///< the alpha of all fragments fails the test
+  equal_normals,              ///< all normals are equal, lights directional, the viewer infinite
+  equal_colors                ///< all vertex colours are equal
 };
 
 /// One effect of a draw. Frame::effects returns them, Frame::explain their text.
@@ -94,12 +103,13 @@ struct EffectNote {
   Effect effect = Effect::draw;
   bool active = true;  ///< false: no code runs for it
   EffectReason reason = EffectReason::requested;
-  bool back_faces = false;  ///< two-sided lighting: about the back faces' material
-  int light = -1;           ///< number of the light, from 0; -1: not about a light
-  int width = 0;            ///< bitmap, image and texture: texels per row
-  int height = 0;           ///< bitmap, image and texture: rows
-  int channels = 0;         ///< image and texture: 1 to 4
-  int samples = 0;          ///< multisampling: per pixel
+  bool back_faces = false;   ///< two-sided lighting: about the back faces' material
+  int light = -1;            ///< number of the light, from 0; -1: not about a light
+  int width = 0;             ///< bitmap, image and texture: texels per row
+  int height = 0;            ///< bitmap, image and texture: rows
+  int channels = 0;          ///< image and texture: 1 to 4
+  int samples = 0;           ///< multisampling: per pixel
+  std::string_view cause{};  ///< the field that decides, where effect and reason do not determine it
 
   bool operator==(const EffectNote&) const = default;
 };

@@ -12,6 +12,7 @@ std::size_t pixels_of(const FrameBufferFormat& format) {
 
 RendererOptions options_for(const Drawing& drawing, RendererOptions options) {
   if (drawing.immediate_shading) options.debug.defer_shading = false;
+  if (drawing.runs_in_full) options.elide = false;
   return options;
 }
 

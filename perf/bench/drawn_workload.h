@@ -26,6 +26,7 @@ struct Drawing {
   /// Draws that show depth or stencil as colour, recorded after `record` in checked frames only. Optional.
   Record reveal{};
   bool immediate_shading = false;  ///< turns deferred shading off: hidden fragments are shaded, too
+  bool runs_in_full = false;       ///< leaves out no effect because of the data (RendererOptions::elide)
   bool stores_planes = false;      ///< keeps the picture in the planes instead of writing an image
 
   /// Expected FrameStats::shaded_pixels of a checked frame; 0: not checked.

@@ -130,6 +130,7 @@ Drawing operation_drawing(int width, int height, const Operation& operation) {
   Drawing drawing;
   drawing.format = scene->framebuffer;
   drawing.meshes = scene->meshes;
+  drawing.runs_in_full = true;  // alpha is 1: the operations change nothing, but are to be timed
   drawing.record = [scene](const Drawing&, Frame& frame) { record(*scene, frame); };
   drawing.fault = [effect = operation.effect](const Picture& picture) {
     return unexpected_effect(picture, effect);

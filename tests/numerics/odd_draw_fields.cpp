@@ -165,8 +165,8 @@ void add_buffer_and_renderer(Fields& f) {
   [[maybe_unused]] const auto know = [](const FrameBufferFormat& b, const RendererOptions& o) {
     [[maybe_unused]] const auto& [width, height, color_mode, color_bits, palette, depth, stencil_bits,
                                   alpha_bits, dither, accumulation_bits, samples] = b;
-    [[maybe_unused]] const auto& [threads, tile_size, instruction_set, bin_memory, debug, executor, progress,
-                                  log, trace] = o;
+    [[maybe_unused]] const auto& [threads, tile_size, instruction_set, elide, bin_memory, debug, executor,
+                                  progress, log, trace] = o;
   };
   constexpr const char* kBuffer = "FrameBuffer";
   constexpr const char* kRenderer = "Renderer";

@@ -22,6 +22,10 @@ constexpr const char* kRenderExamples = R"(Examples:
   tessera render -o term                          the picture in the terminal
   tessera render scene.json --compare right.png --threshold 2      exits with 3 if it differs)";
 
+constexpr const char* kExplainExamples = R"(Examples:
+  tessera explain scene.json
+  tessera explain truck.glb --json > effects.json)";
+
 constexpr const char* kSelftestExamples = R"(Examples:
   tessera selftest
   tessera selftest --hashes > here.txt            on one machine
@@ -48,6 +52,12 @@ void add_choice(CLI::App& command, const std::string& option, Target& target,
       if (choice.name == typed) target = choice.value;
   };
   command.add_option_function<std::string>(option, set, text)->option_text(value_text)->check(one_of(names));
+}
+
+void add_input(CLI::App& command, std::string& input) {
+  command.add_option("input", input, "scene or model; default: the built-in scene")
+      ->option_text("[SCENE.json | MODEL]")
+      ->check(not_empty("a scene's or a model's name"));
 }
 
 void add_output(CLI::App& command, RenderRequest& request) {
@@ -162,6 +172,9 @@ void add_renderer_options(CLI::App& command, RendererOptions& options) {
                                               {"avx2", InstructionSet::avx2},
                                               {"avx512", InstructionSet::avx512}},
                                              "instruction set; default: the best of this machine");
+  add_choice<bool, bool>(command, "--elide", options.elide, {{"on", true}, {"off", false}},
+                         "leave out effects that the data of a draw make unnecessary; the picture is the "
+                         "same; default: on");
 }
 
 void add_reports(CLI::App& command, RenderRequest& request) {
@@ -190,9 +203,7 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
                                              ".stl, ...); without one, the built-in teapot");
   command->footer(kRenderExamples);
   command->option_defaults()->take_last();
-  command->add_option("input", request.input, "scene or model")
-      ->option_text("[SCENE.json | MODEL]")
-      ->check(not_empty("a scene's or a model's name"));
+  add_input(*command, request.input);
   add_output(*command, request);
   add_scene_overrides(*command, request.overrides);
   add_planes(*command, request);
@@ -201,6 +212,18 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   add_comparison(*command, request);
   add_renderer_options(*command, request.options);
   add_reports(*command, request);
+  return command;
+}
+
+CLI::App* add_explain(CLI::App& program, ExplainRequest& request) {
+  CLI::App* command = program.add_subcommand(
+      "explain", "List for each draw of a scene or a model the effects that run or are skipped, and why");
+  command->footer(kExplainExamples);
+  command->option_defaults()->take_last();
+  add_input(*command, request.input);
+  add_scene_overrides(*command, request.overrides);
+  add_view(*command, request.overrides);
+  command->add_flag("--json", request.json, "print JSON, with stable codes for effects and reasons");
   return command;
 }
 

@@ -33,6 +33,7 @@ constexpr int kBadUsage = 2;
 constexpr const char* kProgramExamples = R"(Examples:
   tessera render                                  the built-in teapot, as tessera.png
   tessera render --help                           options of render
+  tessera explain scene.json                      which effects run for each draw, and why
   tessera info                                    this machine and its instruction sets
   tessera selftest                                check that this machine renders correctly
   tessera completion bash > /etc/bash_completion.d/tessera)";
@@ -71,7 +72,8 @@ std::string unexpected_argument(const CLI::App& program) {
   if (std::filesystem::exists(word, error))
     return message + "; did you mean \"tessera render " + word + "\"?";
   return "unknown command \"" + word + "\"" +
-         did_you_mean(word, Names{"render", "info", "selftest", "bench", "formats", "completion", "man"});
+         did_you_mean(
+             word, Names{"render", "explain", "info", "selftest", "bench", "formats", "completion", "man"});
 }
 
 int usage_error(const std::string& message, const CLI::App& program) {
@@ -114,6 +116,7 @@ std::vector<CommandDoc> docs_of(const CLI::App& program) {
 /// Values that parsing fills in.
 struct Requests {
   RenderRequest render;
+  ExplainRequest explain;
   SelftestRequest selftest;
   std::string shell;  ///< for `completion`
 };
@@ -121,6 +124,7 @@ struct Requests {
 /// The subcommands; they belong to the program.
 struct Commands {
   CLI::App* render;
+  CLI::App* explain;
   CLI::App* info;
   CLI::App* selftest;
   CLI::App* bench;
@@ -162,6 +166,7 @@ Commands add_commands(CLI::App& program, Requests& requests) {
   };
   Commands commands{};
   commands.render = add_render(program, requests.render);
+  commands.explain = add_explain(program, requests.explain);
   commands.info = add_plain("info", "Describe this machine and what Tessera uses of it", "tessera info");
   commands.selftest = add_selftest(program, requests.selftest);
   commands.bench = add_bench(program);
@@ -205,6 +210,7 @@ int run(int argument_count, char** arguments) {
       request.stats = request.stats_name == "json" ? StatsFormat::json : StatsFormat::text;
     return render(std::move(request));
   }
+  if (commands.explain->parsed()) return explain(requests.explain);
   if (commands.info->parsed()) std::cout << info_text();
   else if (commands.formats->parsed()) std::cout << formats_text();
   else if (commands.completion->parsed()) std::cout << completion_script(requests.shell, docs_of(program));

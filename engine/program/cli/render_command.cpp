@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "engine/program/cli/compare.h"
+#include "engine/program/cli/explain_command.h"
 #include "engine/program/cli/file_guard.h"
 #include "engine/program/cli/printable.h"
-#include "engine/program/import/model.h"
+#include "engine/program/cli/scene_input.h"
 #include "engine/program/scene/file_extension.h"
-#include "engine/program/scene/model_scene.h"
 #include "engine/program/threads/thread_limit.h"
 
 namespace tessera::program::cli {
@@ -35,59 +35,12 @@ const char* buffer_name(Buffer buffer) {
   return "";
 }
 
-/// The scene to render, evaluated at the time of each frame.
-class Input {
- public:
-  explicit Input(const RenderRequest& request) : overrides_(request.overrides) {
-    const auto should_continue = [] { return !Interrupt::pressed(); };
-    if (request.input.empty()) {
-      scene_ = builtin_scene();
-    } else if (lower_case_extension(request.input) == ".json") {
-      file_.emplace(request.input, should_continue);
-      scene_ = file_->at(0);
-    } else {
-      const FrameBufferFormat defaults;
-      Model model = import_model(request.input, ModelUse::display, should_continue);
-      scene_ = model_scene(std::move(model), request.input, overrides_.width.value_or(defaults.width),
-                           overrides_.height.value_or(defaults.height));
-    }
-    apply(overrides_, scene_);
-  }
-  const Scene& scene() const { return scene_; }
-  /// Evaluates the scene at `time`, 0 .. 1.
-  void move_to(double time) {
-    if (!file_ || !file_->is_animated()) return;
-    scene_ = file_->at(time);
-    apply(overrides_, scene_);
-  }
-
- private:
-  SceneOverrides overrides_;
-  std::optional<SceneFile> file_;
-  Scene scene_;
-};
-
 std::string output_path(const RenderRequest& request) {
   if (!request.output.path.empty()) return request.output.path;
   // Without the suffix, the picture of truck.obj could replace its texture truck.png.
   const std::string name =
       request.input.empty() ? "tessera" : fs::path(request.input).stem().string() + ".render";
   return name + (request.frames > 1 ? "_{frame}.png" : ".png");
-}
-
-void print_explanations(const Scene& scene, const Frame& frame) {
-  std::size_t index = 0;
-  const auto print = [&](const std::string& name) {
-    std::string text = frame.explain(index);
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    std::cout << "draw " << index++ << ", " << name << ":\n" << text << "\n";
-  };
-  for (const SceneCommand& command : scene.frame) {
-    if (const auto* draw = std::get_if<DrawCommand>(&command.value))
-      print("\"" + scene.meshes[draw->mesh].name + "\"");
-    if (std::holds_alternative<BitmapCommand>(command.value)) print("bitmap");
-    if (std::holds_alternative<ImageCommand>(command.value)) print("image");
-  }
 }
 
 std::string plane_path(const fs::path& folder, Buffer which, int k) {
@@ -203,9 +156,8 @@ void write_frame(const Picture& picture, const FrameBuffer& buffer, bool is_inde
 int render(RenderRequest request) {
   const auto start = std::chrono::steady_clock::now();
   const Interrupt interrupt;
-  Input input(request);
-  for (const std::string& warning : input.scene().warnings)
-    std::cerr << "tessera: warning: " << printable(warning) << "\n";
+  SceneInput input(request.input, request.overrides);
+  input.print_warnings();
   RunStats run;
   run.load_ms = milliseconds_since(start);
 
@@ -244,7 +196,7 @@ int render(RenderRequest request) {
     const bool is_indexed = is_indexed_png(buffer.format(), path);
     if (request.explain && f == 0) {
       record(scene, frame);
-      print_explanations(scene, frame);
+      std::cout << explanation_text(scene, frame);
       frame.reset();
     }
     for (int r = 0; r < request.repeat; ++r, ++done_renders) {

@@ -1,7 +1,7 @@
 // The same frame gives the same bits: for any number of threads, tile size and instruction set, with
-// immediate or deferred shading, in one or several bin passes, in any order of tiles, scanned out or read
-// back, and on any machine. tests/picture_hashes.txt holds the hash of every scene,
-// tests/random_frame_hashes.txt those of some random frames.
+// immediate or deferred shading, with effects left out or in full, in one or several bin passes, in any order
+// of tiles, scanned out or read back, and on any machine. tests/picture_hashes.txt holds the hash of every
+// scene, tests/random_frame_hashes.txt those of some random frames.
 //
 // After an intended change of pictures: TESSERA_WRITE_HASHES=1 engine_tests --gtest_filter='PictureHashes.*'
 #include <gtest/gtest.h>
@@ -51,7 +51,8 @@ Scene scene_of(const std::string& name) {
 std::string text(const RendererOptions& o) {
   return std::to_string(o.threads) + " threads, tiles of " + std::to_string(o.tile_size) + ", " +
          std::string(name(o.instruction_set)) + (o.debug.defer_shading ? "" : ", shaded at once") +
-         (o.bin_memory == kMinBinMemory ? ", in parts" : "") + (o.debug.task_order != 0 ? ", shuffled" : "");
+         (o.bin_memory == kMinBinMemory ? ", in parts" : "") + (o.debug.task_order != 0 ? ", shuffled" : "") +
+         (o.elide ? "" : ", every effect in full");
 }
 
 const std::vector<RendererOptions>& all_options() {
@@ -66,6 +67,7 @@ const std::vector<RendererOptions>& all_options() {
           RendererOptions options{.threads = threads, .tile_size = tile_size, .instruction_set = set};
           if (place / 2 % 2 != 0) options.bin_memory = kMinBinMemory;
           options.debug.defer_shading = place % 2 == 0;
+          options.elide = place / 4 % 2 == 0;
           if (threads % 3 != 0) options.debug.task_order = 17u * static_cast<unsigned>(place);
           all.push_back(options);
         }
@@ -114,6 +116,7 @@ void expect_same_bits_always(const FrameBufferFormat& format, const std::functio
   Renderer& plain = renderer({.threads = 1,
                               .tile_size = 64,
                               .instruction_set = InstructionSet::scalar,
+                              .elide = false,
                               .debug = {.defer_shading = false}});
   const Fingerprint expected = stored(format, record, plain);
   const std::vector<std::uint8_t> shown = read_back(format, record, plain);

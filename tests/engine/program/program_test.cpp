@@ -231,8 +231,8 @@ TEST_F(Program, ReportsFullDisk) {
 TEST_F(Program, ReportsUnwritableStandardOutput) {
   if (!has_full_disk()) GTEST_SKIP() << "no /dev/full";
   for (const char* arguments :
-       {"render --size 8x8 -o term", "render --size 8x8 -o picture.ppm --stats=json", "info", "formats",
-        "completion bash", "man", "--help", "--version", "selftest --help"}) {
+       {"render --size 8x8 -o term", "render --size 8x8 -o picture.ppm --stats=json", "explain", "info",
+        "formats", "completion bash", "man", "--help", "--version", "selftest --help"}) {
     const Result result = run_without_room(arguments);
     EXPECT_EQ(result.code, 1) << arguments;
     EXPECT_TRUE(contains(result.err, "error: cannot write to the standard output")) << arguments << "\n"
@@ -375,7 +375,7 @@ TEST_F(Program, PrintsMachineFormatsManualAndCompletions) {
     EXPECT_TRUE(contains(formats.out, part)) << formats.out;
   EXPECT_TRUE(man.out.starts_with(".TH TESSERA 1")) << man.out.substr(0, 80);
   EXPECT_TRUE(contains(man.out, "\\-\\-palette"));
-  for (const char* command : {"render", "info", "selftest", "formats", "completion", "man"})
+  for (const char* command : {"render", "explain", "info", "selftest", "formats", "completion", "man"})
     EXPECT_TRUE(contains(man.out, std::string(".SS tessera ") + command + "\n") ||
                 contains(man.out, std::string(".SS tessera ") + command + " "))
         << command;

@@ -1,0 +1,14 @@
+// Lights that add exactly nothing to a draw, proven from its vertices.
+#pragma once
+
+#include "engine/plan/draw_plan.h"
+
+namespace tessera::detail {
+
+/// Sets `plan.light_reach` from the positions and normals of the mesh. Reads a vertex or two if a light
+/// reaches them, otherwise the whole mesh.
+/// @pre `plan` has its lights, eye transform, topology and faces
+/// @param sampled  several samples per pixel: lit pixels may lie outside of their triangles
+void prove_light_reach(DrawPlan& plan, const RecordedDraw& draw, bool sampled);
+
+}  // namespace tessera::detail

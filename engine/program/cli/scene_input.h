@@ -1,0 +1,32 @@
+// The scene that a command works on: a scene file, a model, or the built-in scene.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/program/scene/scene.h"
+
+namespace tessera::program::cli {
+
+/// A scene, evaluated at the time of each frame.
+class SceneInput {
+ public:
+  /// @param path       a scene or a model; empty: the built-in scene
+  /// @param overrides  replace values of the scene
+  /// @throws Error      for a file that cannot be read
+  /// @throws Cancelled  if the user interrupts
+  SceneInput(const std::string& path, const SceneOverrides& overrides);
+
+  const Scene& scene() const { return scene_; }
+  /// Evaluates the scene at `time`, 0 .. 1.
+  void move_to(double time);
+  /// Prints the scene's warnings on stderr.
+  void print_warnings() const;
+
+ private:
+  SceneOverrides overrides_;
+  std::optional<SceneFile> file_;
+  Scene scene_;
+};
+
+}  // namespace tessera::program::cli
