@@ -11,6 +11,7 @@ void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
 struct ColorOptions {
   bool sampled = false;  ///< several samples per pixel
   bool elide = true;     ///< leave out what the vertex data make unnecessary
+  InstructionSet isa = InstructionSet::scalar;
 };
 
 /// Plans the colours of a mesh. @pre plan_faces(); the fragment operations and the texture are planned

@@ -114,14 +114,15 @@ void plan_operations(DrawPlan& plan, const RecordedDraw& draw, const FrameBuffer
 }
 
 /// Plans the texture and the colours of a mesh.
-void plan_shading(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target, bool elide,
-                  const EffectNotes& notes) {
+void plan_shading(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target,
+                  const PlanOptions& options, const EffectNotes& notes) {
   const bool stores_colors = plan.write_mask != 0 && !plan.only_indices();
   const bool blends_or_stores_alpha = stores_colors && (plan.ops.blend || target.layout.alpha_bits > 0);
   const bool needs_alpha = plan.ops.alpha_test || blends_or_stores_alpha;
   plan.texture = plan_texture(draw, {.colors = stores_colors, .alpha = needs_alpha}, notes);
   plan.float_colors |= plan.has_ops && plan.texture.use == TexturePlan::Use::texels;
-  plan_color(plan, draw, target.layout, {.sampled = target.format.samples > 1, .elide = elide}, notes);
+  plan_color(plan, draw, target.layout,
+             {.sampled = target.format.samples > 1, .elide = options.elide, .isa = options.isa}, notes);
 }
 
 /// No buffer can change.
@@ -201,7 +202,7 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
   note_depth(plan, state, target, notes);
   plan_operations(plan, draw, target, alpha, notes);
   if (draw.pixels) plan_pixel_colors(plan, *draw.pixels, notes);
-  else plan_shading(plan, draw, target, options.elide, notes);
+  else plan_shading(plan, draw, target, options, notes);
   if (plan.texture.use == TexturePlan::Use::one_color)
     notes.active(Effect::texture,
                  plan.textures_per_pixel ? EffectReason::one_color_per_pixel : EffectReason::folded);

@@ -118,6 +118,7 @@ struct DrawPlan {
 struct PlanOptions {
   bool capture_normals = false;  ///< the frame captures normals
   bool elide = true;             ///< leave out effects that the data of a draw make unnecessary
+  InstructionSet isa = InstructionSet::scalar;  ///< for scans of the data
 };
 
 /// @param plan   is replaced

@@ -52,13 +52,15 @@ std::optional<TileAccumulation> plan_accumulation(const Accum& accum, const Fram
 }
 
 /// Plans each draw, and lists the plans of draws that can change a pixel.
-void plan_draws(FrameCommands& commands, FrameRecording& recording, bool elide, WorkerPool& worker_pool) {
+void plan_draws(FrameCommands& commands, FrameRecording& recording, PlanOptions options,
+                WorkerPool& worker_pool) {
   const std::size_t draws = recording.draws.size();
   const Capture& capture = recording.capture;
   const bool captures =
       !capture.draw_ids.empty() || !capture.primitive_ids.empty() || !capture.normals.empty();
   // Captures show draws that change no colour, too.
-  const PlanOptions options{.capture_normals = !capture.normals.empty(), .elide = elide && !captures};
+  options.capture_normals = !capture.normals.empty();
+  options.elide &= !captures;
   const auto plan_range = [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
       plan_draw(commands.plan_memory[i], recording.draws[i], *recording.target, options,
@@ -175,10 +177,10 @@ void FrameCommands::reset() {
   attachments = {};
 }
 
-void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented, bool elide,
-                std::deque<DrawBuffers>& buffers, WorkerPool& worker_pool) {
+void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented,
+                const PlanOptions& options, std::deque<DrawBuffers>& buffers, WorkerPool& worker_pool) {
   commands.reset();
-  plan_draws(commands, recording, elide, worker_pool);
+  plan_draws(commands, recording, options, worker_pool);
   plan_clears(commands, recording);
   plan_accumulations(commands, recording);
   commands.attachments = plan_attachments(commands, recording, presented);

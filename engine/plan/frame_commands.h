@@ -42,9 +42,9 @@ GeometryDraw geometry_draw(const RecordedDraw& draw, const DrawPlan& plan, Frame
 /// Plans every draw, clear and accumulation that can change a pixel.
 /// @param commands   is replaced
 /// @param presented  the colour goes to an image
-/// @param elide      leave out effects that the data of a draw make unnecessary
+/// @param options    of every draw; captures are taken from `recording`
 /// @throws Error  if the frame loads a buffer that the frame before did not keep
-void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented, bool elide,
-                std::deque<DrawBuffers>& buffers, WorkerPool& worker_pool);
+void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented,
+                const PlanOptions& options, std::deque<DrawBuffers>& buffers, WorkerPool& worker_pool);
 
 }  // namespace tessera::detail

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/plan/vertex_facts.h"
+#include "raster/vertex_bounds.h"
 #include "shading/light_reach.h"
 
 namespace tessera::detail {
@@ -96,11 +96,12 @@ struct VertexBoxes {
 };
 
 /// Null if a value is not finite.
-std::optional<VertexBoxes> boxes_of_vertices(const MeshArrays& mesh, std::size_t first, std::size_t last) {
-  const std::optional<FloatBox> positions = bounds(mesh.positions, first, last);
-  const std::optional<FloatBox> normals =
-      mesh.normals ? bounds(mesh.normals, first, last) : std::optional(FloatBox{});
-  return positions && normals ? std::optional(VertexBoxes{*positions, *normals}) : std::nullopt;
+std::optional<VertexBoxes> boxes_of_vertices(const MeshArrays& mesh, std::size_t first, std::size_t last,
+                                             InstructionSet isa) {
+  VertexBoxes boxes;
+  bool is_finite = find_bounds(isa)(mesh.positions.from(first), last - first, boxes.positions);
+  if (mesh.normals) is_finite &= find_bounds(isa)(mesh.normals.from(first), last - first, boxes.normals);
+  return is_finite ? std::optional(boxes) : std::nullopt;
 }
 
 /// Boxes of the vertices of elements [first, last). @pre first < last
@@ -122,13 +123,13 @@ VertexBoxes boxes_of_elements(const MeshArrays& mesh, std::size_t first, std::si
 /// @param between  lit between vertices: parts are triangles, whose points are inside of the boxes of their
 ///                 vertices; otherwise vertices
 void keep_proven_by_all_parts(const LightProofs& proofs, const MeshArrays& mesh, bool between,
-                              DrawPlan& plan) {
+                              InstructionSet isa, DrawPlan& plan) {
   const std::size_t count = between ? mesh.elements : mesh.vertices;
   const std::size_t each = std::max(kMinPartSize, (count + kMaxParts - 1) / kMaxParts);
   for (std::size_t first = 0; first < count && !plan.light_candidates.empty(); first += each) {
     const std::size_t last = std::min(count, first + each);
     const VertexBoxes boxes =
-        between ? boxes_of_elements(mesh, first, last) : *boxes_of_vertices(mesh, first, last);
+        between ? boxes_of_elements(mesh, first, last) : *boxes_of_vertices(mesh, first, last, isa);
     const SurfaceBounds part = proofs.bounds_of(boxes.positions, boxes.normals);
     std::erase_if(plan.light_candidates,
                   [&](const LightCandidate& candidate) { return !proofs.misses(candidate, part); });
@@ -148,7 +149,7 @@ bool lights_between_vertices(const DrawPlan& plan, const DrawState& state) {
 
 }  // namespace
 
-void prove_light_reach(DrawPlan& plan, const RecordedDraw& draw, bool sampled) {
+void prove_light_reach(DrawPlan& plan, const RecordedDraw& draw, bool sampled, InstructionSet isa) {
   const MeshArrays& mesh = draw.mesh;
   const double* const last_row = plan.eye.eye_from_object + 12;
   const bool keeps_w = last_row[0] == 0 && last_row[1] == 0 && last_row[2] == 0 && last_row[3] == 1;
@@ -161,7 +162,7 @@ void prove_light_reach(DrawPlan& plan, const RecordedDraw& draw, bool sampled) {
   find_candidates(proofs, plan);
   sample_vertices(proofs, mesh.vertices, plan);
   if (plan.light_candidates.empty()) return;
-  const std::optional<VertexBoxes> boxes = boxes_of_vertices(mesh, 0, mesh.vertices);
+  const std::optional<VertexBoxes> boxes = boxes_of_vertices(mesh, 0, mesh.vertices, isa);
   if (!boxes) return;
   const SurfaceBounds whole = proofs.bounds_of(boxes->positions, boxes->normals);
   std::erase_if(plan.light_candidates, [&](const LightCandidate& candidate) {
@@ -169,7 +170,7 @@ void prove_light_reach(DrawPlan& plan, const RecordedDraw& draw, bool sampled) {
     if (is_proven) set_reach(plan, candidate);
     return is_proven;
   });
-  keep_proven_by_all_parts(proofs, mesh, lights_between, plan);
+  keep_proven_by_all_parts(proofs, mesh, lights_between, isa, plan);
   for (const LightCandidate& candidate : plan.light_candidates) set_reach(plan, candidate);
 }
 

@@ -9,6 +9,7 @@ namespace tessera::detail {
 /// reaches them, otherwise the whole mesh.
 /// @pre `plan` has its lights, eye transform, topology and faces
 /// @param sampled  several samples per pixel: lit pixels may lie outside of their triangles
-void prove_light_reach(DrawPlan& plan, const RecordedDraw& draw, bool sampled);
+/// @param isa      for the scan of the mesh
+void prove_light_reach(DrawPlan& plan, const RecordedDraw& draw, bool sampled, InstructionSet isa);
 
 }  // namespace tessera::detail

@@ -44,28 +44,4 @@ std::optional<std::array<float, 3>> equal_normal(const MeshArrays& mesh) {
   return equal_values<3>(mesh.normals, mesh.vertices);
 }
 
-void FloatBox::include(const FloatBox& other) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    low[k] = std::min(low[k], other.low[k]);
-    high[k] = std::max(high[k], other.high[k]);
-  }
-}
-
-std::optional<FloatBox> bounds(StridedFloats values, std::size_t first, std::size_t last) {
-  FloatBox box;
-  std::copy_n(values.at(first), 3, box.low.begin());
-  box.high = box.low;
-  float probe = 0;
-  for (std::size_t i = first; i < last; ++i) {
-    const float* const value = values.at(i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.low[k] = std::min(box.low[k], value[k]);
-      box.high[k] = std::max(box.high[k], value[k]);
-      probe += value[k] * 0.0f;
-    }
-  }
-  if (!(probe == 0)) return std::nullopt;
-  return box;
-}
-
 }  // namespace tessera::detail

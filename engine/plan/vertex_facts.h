@@ -22,13 +22,4 @@ std::optional<float> equal_alpha(const MeshArrays& mesh);
 /// x y z of all normals, if they are equal and finite. @pre the mesh has vertices and normals
 std::optional<std::array<float, 3>> equal_normal(const MeshArrays& mesh);
 
-/// Bounds of the first three components of vertices [first, last).
-struct FloatBox {
-  std::array<float, 3> low, high;
-
-  void include(const FloatBox& other);
-};
-/// Null if a value is not finite. @pre first < last
-std::optional<FloatBox> bounds(StridedFloats values, std::size_t first, std::size_t last);
-
 }  // namespace tessera::detail
