@@ -3,6 +3,8 @@
 #include <array>
 #include <iterator>
 
+#include "engine/buffers/frame_buffer_state.h"
+
 namespace tessera {
 namespace {
 
@@ -115,6 +117,20 @@ constexpr ReasonWords kReasons[] = {
     {EffectReason::equal_colors, "equal_colors", "one colour, all vertices have it"},
 };
 
+struct BufferWords {
+  BufferReason reason;
+  std::string_view code;    ///< stable, for programs
+  std::string_view phrase;  ///< for people
+};
+constexpr BufferWords kBufferReasons[] = {
+    {BufferReason::not_in_format, "not_in_format", "the frame buffer has none"},
+    {BufferReason::not_used, "not_used", "not allocated, nothing reads it"},
+    {BufferReason::unchanged, "unchanged", "read, not changed"},
+    {BufferReason::kept, "kept", "stored in its planes"},
+    {BufferReason::ends_cleared, "ends_cleared", "ends as one value, no planes are written"},
+    {BufferReason::not_kept, "not_kept", "in tiles only, the frame does not keep it"},
+};
+
 template <class Words, std::size_t size, class Key>
 constexpr bool is_indexed_by(const Words (&words)[size], Key Words::*key) {
   for (std::size_t i = 0; i < size; ++i)
@@ -123,6 +139,7 @@ constexpr bool is_indexed_by(const Words (&words)[size], Key Words::*key) {
 }
 static_assert(is_indexed_by(kEffects, &EffectWords::effect));
 static_assert(is_indexed_by(kReasons, &ReasonWords::reason));
+static_assert(is_indexed_by(kBufferReasons, &BufferWords::reason));
 static_assert(std::size(kEffects) == static_cast<std::size_t>(Effect::light_tracked_colors) + 1);
 static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::equal_colors) + 1);
 
@@ -175,6 +192,17 @@ std::string_view code(Effect effect) {
 }
 std::string_view code(EffectReason reason) {
   return static_cast<std::size_t>(reason) < std::size(kReasons) ? words_of(reason).code : std::string_view();
+}
+
+std::string_view code(BufferReason reason) {
+  const auto index = static_cast<std::size_t>(reason);
+  return index < std::size(kBufferReasons) ? kBufferReasons[index].code : std::string_view();
+}
+
+std::string text(const BufferNote& note) {
+  const BufferWords& words = kBufferReasons[static_cast<std::size_t>(note.reason)];
+  std::string line(detail::name(note.buffer));
+  return line.append(note.loaded ? ": loaded; " : ": ").append(words.phrase);
 }
 
 std::string detail::text_of(const EffectNote& note) {

@@ -53,7 +53,7 @@ std::optional<TileAccumulation> plan_accumulation(const Accum& accum, const Fram
 
 /// Plans each draw, and lists the plans of draws that can change a pixel.
 void plan_draws(FrameCommands& commands, FrameRecording& recording, PlanOptions options,
-                WorkerPool& worker_pool) {
+                WorkerPool* worker_pool) {
   const std::size_t draws = recording.draws.size();
   const Capture& capture = recording.capture;
   const bool captures =
@@ -67,10 +67,10 @@ void plan_draws(FrameCommands& commands, FrameRecording& recording, PlanOptions 
                 EffectNotes(nullptr));
   };
   if (commands.plan_memory.size() < draws) commands.plan_memory.resize(draws);
-  if (draws <= kDrawsPerTask) {
+  if (draws <= kDrawsPerTask || worker_pool == nullptr) {
     plan_range(0, draws);
   } else {
-    worker_pool.for_each((draws + kDrawsPerTask - 1) / kDrawsPerTask, [&](std::size_t task, int) {
+    worker_pool->for_each((draws + kDrawsPerTask - 1) / kDrawsPerTask, [&](std::size_t task, int) {
       plan_range(task * kDrawsPerTask, std::min(draws, (task + 1) * kDrawsPerTask));
     });
   }
@@ -178,7 +178,7 @@ void FrameCommands::reset() {
 }
 
 void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented,
-                const PlanOptions& options, std::deque<DrawBuffers>& buffers, WorkerPool& worker_pool) {
+                const PlanOptions& options, std::deque<DrawBuffers>& buffers, WorkerPool* worker_pool) {
   commands.reset();
   plan_draws(commands, recording, options, worker_pool);
   plan_clears(commands, recording);

@@ -43,8 +43,9 @@ GeometryDraw geometry_draw(const RecordedDraw& draw, const DrawPlan& plan, Frame
 /// @param commands   is replaced
 /// @param presented  the colour goes to an image
 /// @param options    of every draw; captures are taken from `recording`
+/// @param worker_pool  plans many draws in parallel; null: serial
 /// @throws Error  if the frame loads a buffer that the frame before did not keep
 void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented,
-                const PlanOptions& options, std::deque<DrawBuffers>& buffers, WorkerPool& worker_pool);
+                const PlanOptions& options, std::deque<DrawBuffers>& buffers, WorkerPool* worker_pool);
 
 }  // namespace tessera::detail

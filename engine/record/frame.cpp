@@ -6,8 +6,6 @@
 #include <string>
 
 #include "engine/plan/draw_plan.h"
-#include "engine/plan/explain_text.h"
-#include "engine/plan/tile_draws.h"
 #include "engine/record/checks.h"
 #include "engine/record/planar_shadow.h"
 #include "engine/record/recording.h"
@@ -107,13 +105,6 @@ const TextureState* check_texture(const DrawState& s, const TextureState* state)
 template <class Change>
 void change(FrameRecording& recording, const char* function, const Change& edit) {
   translate_bad_alloc(function, [&] { edit(recording.mutable_scene_state()); });
-}
-
-void check_draw_index(const char* function, std::size_t index, std::size_t draws) {
-  if (index < draws) return;
-  throw Error(ErrorCode::invalid_argument, std::string(function) + ": draw " + std::to_string(index) +
-                                               " does not exist, the frame has " + std::to_string(draws) +
-                                               " draws, counted from 0");
 }
 
 }  // namespace
@@ -255,44 +246,5 @@ void Frame::capture(const Capture& capture) {
 void Frame::reset() noexcept { recording_->clear(); }
 
 std::size_t Frame::draw_count() const noexcept { return recording_->draws.size(); }
-
-std::vector<EffectNote> Frame::effects(std::size_t draw_index) const {
-  check_draw_index("Frame::effects", draw_index, recording_->draws.size());
-  return translate_bad_alloc("Frame::effects", [&] {
-    const FloatingPointMode mode;
-    std::vector<EffectNote> notes;
-    DrawPlan plan;
-    plan_draw(plan, recording_->draws[draw_index], *recording_->target, {}, EffectNotes(&notes));
-    return notes;
-  });
-}
-
-DrawExplanation Frame::explanation(std::size_t draw_index) const {
-  check_draw_index("Frame::explanation", draw_index, recording_->draws.size());
-  return translate_bad_alloc("Frame::explanation", [&] {
-    const FloatingPointMode mode;
-    const RecordedDraw& draw = recording_->draws[draw_index];
-    std::vector<EffectNote> notes;
-    DrawPlan plan;
-    plan_draw(plan, draw, *recording_->target, {}, EffectNotes(&notes));
-    DrawExplanation explanation;
-    for (const EffectNote& note : notes)
-      explanation.effects.push_back({.note = note, .cause = cause_of(note), .text = text_of(note)});
-    for (const PixelPath& path : pixel_paths_of(draw, plan, *recording_->target))
-      explanation.code_paths.push_back(describe(path));
-    return explanation;
-  });
-}
-
-std::string Frame::explain(std::size_t draw_index) const {
-  check_draw_index("Frame::explain", draw_index, recording_->draws.size());
-  return translate_bad_alloc("Frame::explain", [&] {
-    const DrawExplanation explanation = this->explanation(draw_index);
-    std::string text;
-    for (const EffectExplanation& effect : explanation.effects) text += "  " + effect.text + "\n";
-    for (const std::string& path : explanation.code_paths) text += "  code path: " + path + "\n";
-    return text;
-  });
-}
 
 }  // namespace tessera

@@ -81,7 +81,7 @@ int RendererState::tile_size_for(const FrameBufferFormat& format) const {
 
 void RendererState::plan(FrameContext& frame) {
   plan_frame(commands, frame.recording, frame.image != nullptr, {.elide = options.elide, .isa = isa},
-             draw_buffers, worker_pool);
+             draw_buffers, &worker_pool);
   for (const GeometryDraw& draw : commands.geometry) frame.stats.vertices += draw.mesh->vertices;
   frame.stats.tiles = static_cast<std::uint64_t>(frame.grid.count());
   frame.stats.tile_size = frame.grid.tile_size;

@@ -37,6 +37,29 @@ struct DrawExplanation {
   std::vector<std::string> code_paths;  ///< one per polygon mode; none if the draw can change no pixel
 };
 
+/// Why the planes of a buffer are written or not.
+enum class BufferReason : std::uint8_t {
+  not_in_format,  ///< the frame buffer has no such buffer
+  not_used,       ///< nothing reads it: neither tiles nor planes are allocated
+  unchanged,      ///< read only
+  kept,           ///< the frame keeps it: tiles are stored in its planes
+  ends_cleared,   ///< it ends as one value: no planes are written
+  not_kept        ///< it exists in tiles only: no planes are allocated
+};
+/// Use of a buffer by a frame.
+struct BufferNote {
+  Buffer buffer = Buffer::color;
+  bool in_tiles = false;  ///< tiles have memory for it
+  bool loaded = false;    ///< tiles start from its planes
+  bool stored = false;    ///< tiles are stored in its planes
+  BufferReason reason = BufferReason::not_used;
+
+  bool operator==(const BufferNote&) const = default;
+};
+TESSERA_API std::string_view code(BufferReason reason);
+/// A line of text, without its end: "depth: not allocated, the frame does not keep it".
+TESSERA_API std::string text(const BufferNote& note);
+
 /// Records the commands of a frame, in order. Nothing is rendered until Renderer::finish.
 /// - The frame buffer must outlive the frame. It may be moved, and must not be assigned to.
 /// - Arguments are checked when they are recorded. A call that throws records nothing.
@@ -98,6 +121,10 @@ class TESSERA_API Frame {
   /// The texts of explanation(), one line each. Wording may change between versions; programs use codes.
   std::string explain(std::size_t draw_index) const;
   std::size_t draw_count() const noexcept;
+  /// The use of each buffer, in the order of Buffer.
+  /// @param presented  Renderer::finish writes an image
+  /// @throws Error  if the frame loads a buffer that the frame before did not keep
+  std::vector<BufferNote> buffers(bool presented = true) const;
 
   /// Forgets all commands, captures and keep(). Camera, lights and light model stay.
   void reset() noexcept;

@@ -12,6 +12,8 @@
 namespace tessera::program::cli {
 namespace {
 
+constexpr const char* kBufferNames[] = {"color", "depth", "stencil", "accumulation"};
+
 /// A draw of the scene, in the order of Frame::effects.
 struct NamedDraw {
   const char* kind;  ///< "mesh", "bitmap" or "image"
@@ -53,6 +55,14 @@ std::string explanation_json(const Scene& scene, const Frame& frame) {
     entry["code_paths"] = explanation.code_paths;
     json["draws"].push_back(entry);
   }
+  json["buffers"] = nlohmann::ordered_json::array();
+  for (const BufferNote& note : frame.buffers())
+    json["buffers"].push_back({{"buffer", kBufferNames[static_cast<std::size_t>(note.buffer)]},
+                               {"in_tiles", note.in_tiles},
+                               {"loaded", note.loaded},
+                               {"stored", note.stored},
+                               {"reason", code(note.reason)},
+                               {"text", tessera::text(note)}});
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -69,6 +79,12 @@ std::string explanation_text(const Scene& scene, const Frame& frame) {
   return text;
 }
 
+std::string buffers_text(const Frame& frame) {
+  std::string text = "buffers:\n";
+  for (const BufferNote& note : frame.buffers()) text += "  " + tessera::text(note) + "\n";
+  return text;
+}
+
 int explain(const ExplainRequest& request) {
   const Interrupt interrupt;
   const SceneInput input(request.input, request.overrides);
@@ -77,7 +93,7 @@ int explain(const ExplainRequest& request) {
   Frame frame(buffer);
   record(input.scene(), frame);
   std::cout << (request.json ? explanation_json(input.scene(), frame)
-                             : explanation_text(input.scene(), frame));
+                             : explanation_text(input.scene(), frame) + buffers_text(frame));
   return 0;
 }
 

@@ -264,6 +264,36 @@ TEST(Explain, TextHasOneLinePerEffect) {
       "  code path: triangles with several samples, colour interpolated, depth unorm24, less and write\n");
 }
 
+TEST(Explain, BuffersThatNothingReadsAreNotAllocated) {
+  FrameBuffer buffer({.width = 16, .height = 16, .accumulation_bits = 16});
+  Frame frame(buffer);
+  const auto reasons = [&](bool presented) {
+    std::vector<BufferReason> list;
+    for (const BufferNote& note : frame.buffers(presented)) list.push_back(note.reason);
+    return list;
+  };
+  frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0, .stencil = 3});
+  EXPECT_EQ(reasons(false), (std::vector{BufferReason::ends_cleared, BufferReason::ends_cleared,
+                                         BufferReason::ends_cleared, BufferReason::not_used}));
+  const MeshData mesh = whole_window();
+  frame.draw(mesh.view(), unlit({1, 1, 1, 1}));
+  EXPECT_EQ(reasons(true), (std::vector{BufferReason::not_kept, BufferReason::not_kept,
+                                        BufferReason::not_used, BufferReason::not_used}));
+  frame.keep({Buffer::depth});
+  EXPECT_EQ(reasons(true)[1], BufferReason::kept);
+  EXPECT_TRUE(frame.buffers()[1].stored);
+  EXPECT_FALSE(frame.buffers()[1].loaded);
+  EXPECT_EQ(text(frame.buffers()[2]), "stencil: not allocated, nothing reads it");
+  EXPECT_EQ(code(BufferReason::not_used), "not_used");
+  Renderer().finish(frame);
+  EXPECT_EQ(buffer.allocated_bytes(Buffer::color), 0u);
+  EXPECT_GT(buffer.allocated_bytes(Buffer::depth), 0u);
+  EXPECT_EQ(buffer.allocated_bytes(Buffer::stencil), 0u);
+
+  FrameBuffer plain({.width = 16, .height = 16, .depth = DepthFormat::none, .stencil_bits = 0});
+  EXPECT_EQ(Frame(plain).buffers()[1].reason, BufferReason::not_in_format);
+}
+
 TEST(Explain, NamesTheCodePathOfEachPolygonMode) {
   Setting s;
   s.state.lighting = false;
