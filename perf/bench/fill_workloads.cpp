@@ -212,8 +212,8 @@ Drawing hidden_layers(int width, int height) {
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, const std::string& description,
-                    std::function<Drawing(int width, int height)> make) {
+WorkloadEntry fill_entry(const std::string& name, const std::string& description,
+                         std::function<Drawing(int width, int height)> make) {
   return drawn(
       "fill-" + name, "16 full-screen layers, " + description,
       [make = std::move(make)](int width, int height, std::uint32_t) { return make(width, height); });
@@ -224,27 +224,30 @@ WorkloadEntry entry(const std::string& name, const std::string& description,
 std::vector<WorkloadEntry> fill_workloads() {
   const auto plain = [](int, DrawState&) {};
   return {
-      entry("flat", "one colour per layer", flat_layers),
-      entry("gouraud", "colours interpolated", [=](int w, int h) { return gouraud_layers(w, h, plain); }),
-      entry("gouraud-z", "colours interpolated, depth tested and written", gouraud_depth_layers),
-      entry("z", "depth only", depth_layers),
-      entry("blend", "colours interpolated and blended by alpha", blended_layers),
-      entry("stencil", "colours interpolated, stencil tested and incremented", stencilled_layers),
-      entry("nearest", "nearest texel",
-            [](int w, int h) {
-              return textured_layers(w, h, {.mag = TextureFilter::nearest, .min = TextureFilter::nearest},
-                                     kMagnifiedTexelsPerPixel);
-            }),
-      entry("bilinear", "bilinear texture",
-            [](int w, int h) {
-              return textured_layers(w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear},
-                                     kMagnifiedTexelsPerPixel);
-            }),
-      entry("trilinear", "trilinear texture",
-            [](int w, int h) {
-              return textured_layers(
-                  w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear_mipmap_linear}, 1.5f);
-            }),
+      fill_entry("flat", "one colour per layer", flat_layers),
+      fill_entry("gouraud", "colours interpolated",
+                 [=](int w, int h) { return gouraud_layers(w, h, plain); }),
+      fill_entry("gouraud-z", "colours interpolated, depth tested and written", gouraud_depth_layers),
+      fill_entry("z", "depth only", depth_layers),
+      fill_entry("blend", "colours interpolated and blended by alpha", blended_layers),
+      fill_entry("stencil", "colours interpolated, stencil tested and incremented", stencilled_layers),
+      fill_entry("nearest", "nearest texel",
+                 [](int w, int h) {
+                   return textured_layers(w, h,
+                                          {.mag = TextureFilter::nearest, .min = TextureFilter::nearest},
+                                          kMagnifiedTexelsPerPixel);
+                 }),
+      fill_entry("bilinear", "bilinear texture",
+                 [](int w, int h) {
+                   return textured_layers(w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear},
+                                          kMagnifiedTexelsPerPixel);
+                 }),
+      fill_entry("trilinear", "trilinear texture",
+                 [](int w, int h) {
+                   return textured_layers(
+                       w, h, {.mag = TextureFilter::linear, .min = TextureFilter::linear_mipmap_linear},
+                       1.5f);
+                 }),
       drawn_outside_mean(
           "fill-hidden",
           "16 full-screen layers, trilinear texture, each hides the one before; shading is deferred",

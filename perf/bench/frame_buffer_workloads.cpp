@@ -77,8 +77,8 @@ Drawing accumulated(int width, int height) {
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, const std::string& description,
-                    std::function<Drawing(int width, int height)> make) {
+WorkloadEntry frame_buffer_entry(const std::string& name, const std::string& description,
+                                 std::function<Drawing(int width, int height)> make) {
   return drawn_outside_mean(
       name, description,
       [make = std::move(make)](int width, int height, std::uint32_t) { return make(width, height); });
@@ -88,15 +88,15 @@ WorkloadEntry entry(const std::string& name, const std::string& description,
 
 std::vector<WorkloadEntry> frame_buffer_workloads() {
   std::vector<WorkloadEntry> list{
-      entry("clear", "colour, depth and stencil cleared, image written", cleared)};
+      frame_buffer_entry("clear", "colour, depth and stencil cleared, image written", cleared)};
   for (const int bits : {1, 4, 8, 16, 24})
-    list.push_back(entry("planes-" + std::to_string(bits),
-                         "two triangles over the whole window, stored in " + std::to_string(bits) +
-                             (bits > 1 ? " planes" : " plane"),
-                         [bits](int w, int h) { return stored_planes(w, h, bits); }));
-  list.push_back(entry("scan-out", "24 stored planes written to an image", scanned_out));
-  list.push_back(
-      entry("accumulation", "24 planes loaded, accumulated in 64 planes and returned", accumulated));
+    list.push_back(frame_buffer_entry("planes-" + std::to_string(bits),
+                                      "two triangles over the whole window, stored in " +
+                                          std::to_string(bits) + (bits > 1 ? " planes" : " plane"),
+                                      [bits](int w, int h) { return stored_planes(w, h, bits); }));
+  list.push_back(frame_buffer_entry("scan-out", "24 stored planes written to an image", scanned_out));
+  list.push_back(frame_buffer_entry("accumulation", "24 planes loaded, accumulated in 64 planes and returned",
+                                    accumulated));
   return list;
 }
 

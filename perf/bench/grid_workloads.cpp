@@ -39,7 +39,7 @@ Drawing grid(int width, int height, int side, int samples = 1) {
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, int side, const std::string& pixels) {
+WorkloadEntry grid_entry(const std::string& name, int side, const std::string& pixels) {
   return drawn("grid-" + name, name + " triangles of " + pixels + ", colours interpolated, depth",
                [side](int width, int height, std::uint32_t) { return grid(width, height, side); });
 }
@@ -53,10 +53,10 @@ WorkloadEntry grid_of(int side) {
 }
 
 std::vector<WorkloadEntry> grid_workloads() {
-  return {entry("2M", 1000, "1 pixel"),
-          entry("500k", 500, "4 pixels"),
-          entry("80k", 200, "26 pixels"),
-          entry("20k", 100, "104 pixels"),
+  return {grid_entry("2M", 1000, "1 pixel"),
+          grid_entry("500k", 500, "4 pixels"),
+          grid_entry("80k", 200, "26 pixels"),
+          grid_entry("20k", 100, "104 pixels"),
           drawn_outside_mean("grid-20M", "20 M triangles of 0.1 pixels, colours interpolated, depth",
                              [](int w, int h, std::uint32_t) { return grid(w, h, 3162); }),
           drawn_outside_mean("samples-4", "80k triangles of 26 pixels, 4 samples per pixel",

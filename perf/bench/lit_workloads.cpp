@@ -145,7 +145,7 @@ Drawing lit_sphere(int width, int height, const LitSphere& scene) {
 }
 
 /// @param size  number of triangles in words, part of the name
-WorkloadEntry entry(const std::string& size, const LitSphere& scene) {
+WorkloadEntry lit_entry(const std::string& size, const LitSphere& scene) {
   const bool is_phong = scene.shading == Shading::phong;
   const std::string count = std::to_string(scene.lights);
   const std::string name =
@@ -169,16 +169,16 @@ WorkloadEntry sphere_in_frame(int width, int height) {
       });
 }
 
-WorkloadEntry sphere_with_lights(int lights) { return entry("20k", {.lights = lights}); }
+WorkloadEntry sphere_with_lights(int lights) { return lit_entry("20k", {.lights = lights}); }
 
 std::vector<WorkloadEntry> lit_workloads() {
   std::vector<WorkloadEntry> list;
   for (const auto& [size, columns] : {std::pair{"20k", kColumns20k}, {"500k", kColumns500k}})
     for (const int lights : {1, 8})
-      list.push_back(entry(size, {.columns = columns, .shading = Shading::gouraud, .lights = lights}));
+      list.push_back(lit_entry(size, {.columns = columns, .shading = Shading::gouraud, .lights = lights}));
   for (const bool has_spots : {false, true})
     for (const int lights : {1, 4, 8})
-      list.push_back(entry("20k", {.lights = lights, .has_spots = has_spots}));
+      list.push_back(lit_entry("20k", {.lights = lights, .has_spots = has_spots}));
   for (const auto& [width, height] :
        {std::pair{320, 200}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}, {7680, 4320}})
     list.push_back(sphere_in_frame(width, height));

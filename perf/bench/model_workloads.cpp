@@ -59,8 +59,8 @@ Drawing drawing_of(const ModelFile& file, int width, int height) {
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, const std::string& description, const std::string& path,
-                    const std::string& package) {
+WorkloadEntry model_entry(const std::string& name, const std::string& description, const std::string& path,
+                          const std::string& package) {
   const auto file = std::make_shared<ModelFile>(ModelFile{path, package});
   WorkloadEntry entry =
       drawn(name, description + ", as `tessera render` shows it (package " + package + ")",
@@ -79,7 +79,7 @@ WorkloadEntry entry(const std::string& name, const std::string& description, con
 
 WorkloadEntry entry_outside_mean(const std::string& name, const std::string& description,
                                  const std::string& path, const std::string& package) {
-  WorkloadEntry result = entry(name, description, path, package);
+  WorkloadEntry result = model_entry(name, description, path, package);
   result.is_in_mean = false;
   return result;
 }
@@ -88,8 +88,8 @@ WorkloadEntry entry_outside_mean(const std::string& name, const std::string& des
 
 std::vector<WorkloadEntry> model_workloads() {
   // After the bunny: the largest models in Debian 12.
-  return {entry("bunny", "the Stanford bunny, 69,666 triangles", "/usr/share/glmark2/models/bunny.obj",
-                "glmark2-data"),
+  return {model_entry("bunny", "the Stanford bunny, 69,666 triangles", "/usr/share/glmark2/models/bunny.obj",
+                      "glmark2-data"),
           entry_outside_mean("model-suzanne", "a subdivided monkey's head, 251,904 triangles",
                              "/usr/share/assimp/models/BLEND/SuzanneSubdiv_252.blend", "assimp-testmodels"),
           entry_outside_mean("model-ac3d", "a subdivided scene, 245,760 triangles",

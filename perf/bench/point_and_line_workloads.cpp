@@ -59,7 +59,8 @@ Drawing scattered(int width, int height, std::uint32_t seed, Primitive primitive
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, const std::string& description, Primitive primitive) {
+WorkloadEntry point_and_line_entry(const std::string& name, const std::string& description,
+                                   Primitive primitive) {
   return drawn(name, description, [=](int width, int height, std::uint32_t seed) {
     return scattered(width, height, seed, primitive);
   });
@@ -68,9 +69,10 @@ WorkloadEntry entry(const std::string& name, const std::string& description, Pri
 }  // namespace
 
 std::vector<WorkloadEntry> point_and_line_workloads() {
-  return {entry("points-1M", "a million points of one pixel, coloured, depth", Primitive::points),
-          entry("lines-1M", "a million lines of up to 16 pixels along each axis, coloured, depth",
-                Primitive::lines)};
+  return {
+      point_and_line_entry("points-1M", "a million points of one pixel, coloured, depth", Primitive::points),
+      point_and_line_entry("lines-1M", "a million lines of up to 16 pixels along each axis, coloured, depth",
+                           Primitive::lines)};
 }
 
 }  // namespace tessera::bench

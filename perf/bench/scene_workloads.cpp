@@ -68,8 +68,8 @@ Drawing many_draws(int width, int height, int draws) {
   return drawing;
 }
 
-WorkloadEntry entry(const std::string& name, const std::string& description,
-                    std::function<Drawing(int width, int height)> make) {
+WorkloadEntry scene_entry(const std::string& name, const std::string& description,
+                          std::function<Drawing(int width, int height)> make) {
   return drawn_outside_mean(
       name, description,
       [make = std::move(make)](int width, int height, std::uint32_t) { return make(width, height); });
@@ -78,16 +78,16 @@ WorkloadEntry entry(const std::string& name, const std::string& description,
 }  // namespace
 
 WorkloadEntry patches_in_separate_draws(int draws) {
-  return entry("draws-" + std::to_string(draws),
-               std::to_string(draws) + " draws of 32 triangles, all with different states",
-               [draws](int w, int h) { return many_draws(w, h, draws); });
+  return scene_entry("draws-" + std::to_string(draws),
+                     std::to_string(draws) + " draws of 32 triangles, all with different states",
+                     [draws](int w, int h) { return many_draws(w, h, draws); });
 }
 
 std::vector<WorkloadEntry> scene_workloads() {
-  return {entry("depth-8-front", "8 full-screen layers of 20k triangles, front to back",
-                [](int w, int h) { return overdraw_layers(w, h, true); }),
-          entry("depth-8-back", "8 full-screen layers of 20k triangles, back to front",
-                [](int w, int h) { return overdraw_layers(w, h, false); }),
+  return {scene_entry("depth-8-front", "8 full-screen layers of 20k triangles, front to back",
+                      [](int w, int h) { return overdraw_layers(w, h, true); }),
+          scene_entry("depth-8-back", "8 full-screen layers of 20k triangles, back to front",
+                      [](int w, int h) { return overdraw_layers(w, h, false); }),
           patches_in_separate_draws(kDraws)};
 }
 
