@@ -233,6 +233,27 @@ TEST(Elision, LeavesOutBlendingOfAlpha1) {
   EXPECT_FALSE(s.has(EffectReason::alpha_is_one)) << "the equation reads the stored colour";
 }
 
+// A million pixels: some are close to the border between two levels. Colours interpolated in levels round
+// differently there.
+TEST(Elision, RoundsColorsBetweenTwoLevelsAsBlendingDoes) {
+  Scenery s{.format = {.width = 1024, .height = 1024}, .mesh = whole_window()};
+  s.mesh.colors = {0.13f, 0.57f, 0.83f, 1, 0.91f, 0.22f, 0.31f, 1, 0.7f, 0.9f, 0.4f, 1, 0.2f, 0.3f, 0.6f, 1};
+  s.state.lighting = false;
+  for (const bool tests_alpha : {false, true}) {
+    if (tests_alpha) s.state.alpha_test = AlphaTest{};
+    else s.state.blend = BlendState{};
+    FrameBuffer pictures[2] = {FrameBuffer(s.format), FrameBuffer(s.format)};
+    for (const bool elide : {false, true}) {
+      Frame frame(pictures[elide ? 1 : 0]);
+      frame.draw(s.mesh.view(), s.state);
+      EXPECT_EQ(frame.explain(0).find("skipped, ") != std::string::npos, true);
+      Renderer({.threads = 1, .elide = elide}).finish(frame);
+    }
+    EXPECT_EQ(fingerprint(pictures[1]), fingerprint(pictures[0]));
+    s.state.blend.reset();
+  }
+}
+
 TEST(Elision, LeavesOutBlendingWithOpaqueTexels) {
   Random random(2);
   Scenery s{.mesh = patch(0.5)};
