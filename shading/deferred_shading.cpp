@@ -177,7 +177,10 @@ void shade_visible(TileContext& context, int x0, int y0, int x1, int y1) {
             memory.visible_triangles[static_cast<std::size_t>(visibility[std::countr_zero(pending)])];
         const bool other_surface = !pixels.is_of(leader);
         if (pixels.blocks == kBatchBlocks || other_surface) shade_batch(context, pixels);
-        if (other_surface) begin_surface(context, pixels, leader);
+        if (other_surface) {
+          measure_as(context, leader.draw);
+          begin_surface(context, pixels, leader);
+        }
         pixels.index[pixels.blocks] = index;
         pixels.bx[pixels.blocks] = bx;
         pixels.by[pixels.blocks] = by;

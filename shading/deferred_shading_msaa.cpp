@@ -181,6 +181,7 @@ HWY_INLINE bool add_block(TileContext& context, SampledBatch& points, int bx, in
       const ShadedTriangle& leader = context.memory.visible_triangles[id_at(leading, pending.word[leading])];
       if (!points.is_of(leader)) {
         shade_sampled_batch(context, points);
+        measure_as(context, leader.draw);
         begin_surface(context, points, leader);
       }
       SampleMasks left = pending;

@@ -57,8 +57,10 @@ void shade_visible_msaa(TileContext& context);
 /// Shades all visible triangles of the tile and removes them.
 HWY_INLINE void shade_whole_tile(TileContext& context) {
   if (!context.memory.visible_triangles.empty()) {
+    const std::uint32_t measured_draw = context.meter != nullptr ? context.meter->current() : 0;
     if (context.samples > 1) shade_visible_msaa(context);
     else shade_visible(context, 0, 0, context.tile_size - 1, context.tile_size - 1);
+    if (context.meter != nullptr) context.meter->switch_to(measured_draw, context.counts.shaded_pixels);
   }
   context.memory.visible_triangles.clear();
   context.memory.edges64.clear();

@@ -41,6 +41,7 @@ struct GroupBuilder {
     const bool has_visible_triangles = draw != nullptr && !context.memory.visible_triangles.empty();
     if (has_visible_triangles && (next.write_mask != draw->write_mask || !next.deferred))
       shade_whole_tile(context);
+    if (context.meter != nullptr) context.meter->begin_draw(next.recorded_draw, context.counts.shaded_pixels);
     draw_number = number;
     draw = &next;
     draw_elements = draw_group_function(next.path);

@@ -29,6 +29,7 @@ struct TileContext {
   TileCounts counts;
   int samples = 1;
   TileAttachments sample[kMaxSamples];  // with one sample: the attachments of the tile
+  DrawMeter* meter = nullptr;           // null: draws are not measured
 
   HWY_INLINE int block_index(int bx, int by) const {
     return ((by >> 2) * (tile_size >> 2) + (bx >> 2)) * kBlockPixels;
@@ -40,6 +41,16 @@ struct TileContext {
     return hn::Add(hn::ShiftLeft<4>(block), hn::Add(hn::ShiftLeft<2>(hn::And(y, three)), hn::And(x, three)));
   }
 };
+
+/// The time and pixels that follow belong to `tile_draw`, if draws are measured.
+HWY_INLINE void measure_as(const TileContext& context, std::uint32_t tile_draw) {
+  if (context.meter == nullptr) return;
+  context.meter->switch_to(context.frame.draws[tile_draw].recorded_draw, context.counts.shaded_pixels);
+}
+/// The time and pixels that follow belong to no draw, if draws are measured.
+HWY_INLINE void measure_as_no_draw(const TileContext& context) {
+  if (context.meter != nullptr) context.meter->switch_to(DrawMeter::kNoDraw, context.counts.shaded_pixels);
+}
 
 /// Minus the sum of the lanes.
 HWY_INLINE std::uint64_t count_of(Int negative) {

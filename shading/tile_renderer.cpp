@@ -52,7 +52,9 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
                       .rect = {},
                       .needs_scissor = false,
                       .counts = {},
-                      .sample = {}};
+                      .sample = {},
+                      .meter = frame.meter_pass == MeterPass::none ? nullptr : workspace.memory().meter};
+  if (context.meter != nullptr) context.meter->begin_tile(frame.meter_pass);
   TileWorkspace::Memory& memory = context.memory;
   memory.group.count = 0;
   memory.visible_triangles.clear();
@@ -79,9 +81,12 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
     clears_before(draw, frame.clear_count);
   };
   for (std::uint32_t b = frame.batches->next(tile, 0); b < frame.batches->count();) {
-    if (frame.batches->is_streamed())
+    if (frame.batches->is_streamed()) {
       shade_whole_tile(context);  // collected triangles refer to the previous batch
+      measure_as_no_draw(context);
+    }
     const Bins& bins = frame.batches->read(b);
+    if (frame.batches->is_streamed() && builder.draw != nullptr) measure_as(context, builder.draw_number);
     // Other cores wrote most of the batches, and bins are linked lists: prefetch one block ahead.
     const std::uint32_t following = frame.batches->next(tile, b + 1);
     const Bins* const ahead = frame.batches->peek(following);
@@ -99,6 +104,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
           const std::uint32_t draw = entry & ~kDrawMarker;
           if (builder.is_in(draw)) continue;
           builder.flush(bins);
+          measure_as_no_draw(context);
           commands_before(draw);
           builder.begin_draw(draw);
         } else {
@@ -111,6 +117,7 @@ TileCounts render_tile_lanes(const TileFrame& frame, int tile, TileWorkspace& wo
     b = following;
   }
   builder.finish();
+  measure_as_no_draw(context);
   commands_before(frame.draw_count);
   shade_whole_tile(context);
   if (context.samples > 1) resolve_samples(context);

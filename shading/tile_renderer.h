@@ -14,6 +14,7 @@
 #include "raster/binning.h"
 #include "raster/pixel_rectangle.h"
 #include "raster/triangle_setup.h"
+#include "shading/draw_meter.h"
 #include "shading/fragment_ops.h"
 #include "shading/lighting.h"
 #include "shading/pixel_path.h"
@@ -35,7 +36,8 @@ enum class ColorSource : std::uint8_t {
 
 /// A draw as tiles see it. Pointers refer to memory of the frame.
 struct TileDraw {
-  PixelPath path;  ///< choose_pixel_path() for the other fields
+  PixelPath path;                   ///< choose_pixel_path() for the other fields
+  std::uint32_t recorded_draw = 0;  ///< number of the recorded draw, for DrawMeter
 
   Topology topology = Topology::triangles;
   const WindowVertex* vertices = nullptr;
@@ -134,6 +136,7 @@ struct TileFrame {
   /// Samples start with the buffer's contents in the workspace. If not set, a command overwrites the whole
   /// buffer before it is read.
   bool loads_color = false, loads_depth = false, loads_stencil = false;
+  MeterPass meter_pass = MeterPass::none;  ///< @pre if it is not none, workspaces have a meter
 };
 
 PixelPathFrame pixel_path_frame(const TileFrame& frame, InstructionSet isa);
@@ -168,6 +171,8 @@ class TileWorkspace {
   AccumulatedPixels accumulation();  ///< levels, in tile order. @pre allocate_accumulation()
   /// Normals of pixels of draws that capture them, in tile order. @pre allocate_normals()
   float* normals(int component);
+  /// The meter of the worker; null: draws are not measured. It must outlive the tiles.
+  void set_meter(DrawMeter* meter);
   /// These throw std::bad_alloc.
   void allocate_colors(int tiles);
   void allocate_normals();

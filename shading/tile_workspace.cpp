@@ -24,6 +24,7 @@ void TileWorkspace::allocate_colors(int tiles) {
   memory_->colors.resize(static_cast<std::size_t>(tiles));
   select_color(0);
 }
+void TileWorkspace::set_meter(DrawMeter* meter) { memory_->meter = meter; }
 void TileWorkspace::allocate_normals() {
   if (!memory_->normals) memory_->normals = std::make_unique<TileNormals>();
 }

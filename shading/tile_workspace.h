@@ -91,6 +91,7 @@ struct alignas(64) TileWorkspace::Memory {
   TriangleInterpolants interpolants[kVisibleTriangleCapacity];
   std::int32_t surfaces[kVisibleTriangleCapacity];
   TouchedBlocks touched;
+  DrawMeter* meter = nullptr;  ///< used if TileFrame::meter_pass asks for it
   std::vector<TileColors> colors;
   std::unique_ptr<TileNormals> normals;      ///< for captures
   std::unique_ptr<TileStencil> stencil;      ///< null if the frame has none

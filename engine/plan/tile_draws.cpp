@@ -132,6 +132,7 @@ void build_tile_draws(FrameCommands& commands, const PixelPathFrame& frame) {
   for (std::size_t plan = 0; plan < commands.geometry.size(); ++plan)
     for_each_tile_draw(commands.geometry[plan], frame, [&](const TileDraw& draw) {
       commands.tile_draws.push_back(draw);
+      commands.tile_draws.back().recorded_draw = static_cast<std::uint32_t>(commands.plan_draw[plan]);
       commands.tile_draw_plan.push_back(plan);
     });
 }

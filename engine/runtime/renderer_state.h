@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/plan/frame_commands.h"
+#include "engine/runtime/draw_measurer.h"
 #include "engine/runtime/worker_pool.h"
 #include "engine/stages/bin_stage.h"
 #include "engine/stages/draw_range.h"
@@ -44,6 +45,7 @@ struct RendererState {
   FrameCommands commands;
   std::deque<DrawBuffers> draw_buffers;
   DrawRanges ranges;  ///< tasks of the current geometry pass
+  DrawMeasurer draw_measurer;
   NormalStage normal_stage;
   BinStage bin_stage;
   std::vector<TileRange> pending_ranges;  ///< parts of the frame still to be rendered; the last one is next
@@ -57,7 +59,7 @@ struct RendererState {
       : options(std::move(renderer_options)),
         isa(instruction_set),
         worker_pool(options.threads, options.executor, options.debug.task_order),
-        bin_stage(options.bin_memory, worker_pool, isa) {}
+        bin_stage(options.bin_memory, worker_pool, draw_measurer, isa) {}
 
   /// Renders a frame. The recording keeps its commands.
   /// @param image  may be null
@@ -77,6 +79,7 @@ struct RendererState {
     FrameStage stage;
     double done;             ///< share of the frame that is done at the end of the pass
     std::size_t range_size;  ///< vertices or elements per task
+    bool is_of_vertices = false;
   };
 
   // The steps of run(), in order.
@@ -90,6 +93,8 @@ struct RendererState {
 
   // Parts of the steps.
   int tile_size_for(const FrameBufferFormat& format) const;
+  /// Number of workers that measure draws; 0: draws are not measured.
+  std::size_t measured_workers() const;
   /// Calls work(draw, first, last) for ranges of count(draw) items of each draw, in parallel.
   template <class Count, class Work>
   void run_ranges(FrameContext& frame, const GeometryPass& pass, const Count& count, const Work& work);

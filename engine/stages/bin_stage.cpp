@@ -101,18 +101,23 @@ void BinStage::compute_polygon_values() {
         return has_values ? geometry.mesh->elements : 0;
       },
       kTrianglesPerBatch);
-  worker_pool_.for_each(polygon_ranges_.size(), [&](std::size_t i, int) {
+  worker_pool_.for_each(polygon_ranges_.size(), [&](std::size_t i, int worker) {
     const DrawRange range = polygon_ranges_[i];
-    const GeometryDraw& geometry = commands_->geometry[range.draw];
-    const std::size_t each = geometry.mesh->triangles_per_polygon();
-    if (geometry.facing() != nullptr)
-      classify_polygon_facing(draws_[range.draw], each, range.first, range.last,
-                              geometry.buffers->facing.data());
-    const DrawPlan& plan = *geometry.plan;
-    if (geometry.has_polygon_offsets())
-      offset_polygons(draws_[range.draw], each, plan.offset_factor, plan.offset_units, range.first,
-                      range.last, geometry.buffers->depth_offsets.data());
+    draw_measurer_.run(worker, commands_->plan_draw[range.draw], &DrawMeasurement::binning_seconds,
+                       [&] { compute_polygon_values(range); });
   });
+}
+
+void BinStage::compute_polygon_values(const DrawRange& range) const {
+  const GeometryDraw& geometry = commands_->geometry[range.draw];
+  const std::size_t each = geometry.mesh->triangles_per_polygon();
+  if (geometry.facing() != nullptr)
+    classify_polygon_facing(draws_[range.draw], each, range.first, range.last,
+                            geometry.buffers->facing.data());
+  const DrawPlan& plan = *geometry.plan;
+  if (geometry.has_polygon_offsets())
+    offset_polygons(draws_[range.draw], each, plan.offset_factor, plan.offset_units, range.first, range.last,
+                    geometry.buffers->depth_offsets.data());
 }
 
 bool BinStage::fill(const TileRange& tiles, FrameProgress& progress) {
@@ -127,7 +132,7 @@ bool BinStage::fill(const TileRange& tiles, FrameProgress& progress) {
   worker_pool_.for_each(batch_count_, [&](std::size_t b, int worker) {
     progress.task(worker, [&] {
       bins_[b].reset(tiles.count(), tiles.first(grid_), &budget_);
-      bin(bins_[b], elements * b / batch_count_, elements * (b + 1) / batch_count_);
+      bin(bins_[b], elements * b / batch_count_, elements * (b + 1) / batch_count_, worker);
       worker_counts_[static_cast<std::size_t>(worker)].counts += bins_[b].counts;
     });
   });
@@ -158,21 +163,29 @@ void BinStage::fill_one_by_one(const TileRange& tile) {
   batches_.set_streamed(bins_.front(), count,
                         [this, first_tile = tile.first(grid_), elements, each](std::uint32_t b) {
                           bins_.front().reset(1, first_tile);
-                          bin(bins_.front(), b * each, std::min(elements, (b + 1) * each));
+                          // A pass over a single tile has one task, so no other worker measures as worker 0.
+                          bin(bins_.front(), b * each, std::min(elements, (b + 1) * each), 0);
                         });
 }
 
-void BinStage::bin(Bins& bins, std::size_t begin, std::size_t end) const {
+void BinStage::bin(Bins& bins, std::size_t begin, std::size_t end, int worker) const {
   for (std::size_t d = 0; d < draws_.size(); ++d) {
     const std::size_t low = std::max(begin, first_element_[d]);
     const std::size_t high = std::min(end, first_element_[d + 1]);
     if (low >= high) continue;
-    if (commands_->plans[d]->pixel_rectangle) {
-      if (!draws_[d].rect.empty()) bin_pixels(bins, grid_, draws_[d].draw, draws_[d].rect);
-    } else {
-      bin_elements(bins, grid_, draws_[d], static_cast<std::uint32_t>(low - first_element_[d]),
-                   static_cast<std::uint32_t>(high - first_element_[d]), isa_);
-    }
+    draw_measurer_.run(worker, commands_->plan_draw[d], &DrawMeasurement::binning_seconds, [&] {
+      bin_draw_range(bins, {d, low - first_element_[d], high - first_element_[d]});
+    });
+  }
+}
+
+void BinStage::bin_draw_range(Bins& bins, const DrawRange& range) const {
+  const BinDraw& draw = draws_[range.draw];
+  if (commands_->plans[range.draw]->pixel_rectangle) {
+    if (!draw.rect.empty()) bin_pixels(bins, grid_, draw.draw, draw.rect);
+  } else {
+    bin_elements(bins, grid_, draw, static_cast<std::uint32_t>(range.first),
+                 static_cast<std::uint32_t>(range.last), isa_);
   }
 }
 

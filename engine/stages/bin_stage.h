@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/plan/frame_commands.h"
+#include "engine/runtime/draw_measurer.h"
 #include "engine/runtime/frame_progress.h"
 #include "engine/runtime/worker_pool.h"
 #include "engine/stages/draw_range.h"
@@ -27,8 +28,8 @@ class BinStage {
  public:
   /// @param limit  bytes of all bins together. Their index takes more: per tile, 8 bytes, and 8 bytes for
   ///               every 64 batches
-  BinStage(std::size_t limit, WorkerPool& worker_pool, InstructionSet isa)
-      : limit_bytes_(limit), worker_pool_(worker_pool), isa_(isa) {}
+  BinStage(std::size_t limit, WorkerPool& worker_pool, DrawMeasurer& draw_measurer, InstructionSet isa)
+      : limit_bytes_(limit), worker_pool_(worker_pool), draw_measurer_(draw_measurer), isa_(isa) {}
   BinStage(const BinStage&) = delete;
   BinStage& operator=(const BinStage&) = delete;
 
@@ -54,13 +55,17 @@ class BinStage {
   void prepare_draws(int samples);
   /// Computes the facing and the depth offset of polygons that need a common one.
   void compute_polygon_values();
+  void compute_polygon_values(const DrawRange& range) const;
   void start_budget();
   /// Bins elements [begin, end) of the frame.
-  void bin(Bins& bins, std::size_t begin, std::size_t end) const;
+  void bin(Bins& bins, std::size_t begin, std::size_t end, int worker) const;
+  /// Bins elements [begin, end) of a draw.
+  void bin_draw_range(Bins& bins, const DrawRange& range) const;
   void fill_one_by_one(const TileRange& tile);
 
   std::size_t limit_bytes_;
   WorkerPool& worker_pool_;
+  DrawMeasurer& draw_measurer_;
   InstructionSet isa_;
   std::vector<Bins> bins_;
   BinBudget budget_;              ///< memory of bins_

@@ -50,6 +50,8 @@ void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const 
   pass.frame.layout = rgb_layout(24);
   pass.frame.palette_search = nullptr;
   pass.frame.samples = 1;  // visibility at the pixel centre
+  const bool is_measured = kind == PassKind::fragments && frame.meter_pass != MeterPass::none;
+  pass.frame.meter_pass = is_measured ? MeterPass::fragments : MeterPass::none;
   pass.frame.draws = pass.draws.data();
   pass.frame.clears = pass.clears.data();
   const PixelPathFrame path_frame = pixel_path_frame(pass.frame, isa);

@@ -61,6 +61,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   const FrameBufferFormat& format = recording.target->format;
   FrameContext frame(recording, image, {format.width, format.height, tile_size_for(format)}, options,
                      worker_pool.threads());
+  draw_measurer.begin_frame(recording.draws.size(), measured_workers());
   plan(frame);            // draws -> effects and tile draws; buffers -> load and store operations
   reserve_planes(frame);  // the planes that will be stored, before anything changes
   run_geometry(frame);    // vertices -> window positions and varyings
@@ -68,6 +69,10 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   run_tiles(frame);       // bins -> pixels; in several parts if the bins exceed their memory
   commit_buffers(frame);
   return finish(frame);
+}
+
+std::size_t RendererState::measured_workers() const {
+  return options.debug.measure_draws ? static_cast<std::size_t>(worker_pool.threads()) : 0;
 }
 
 int RendererState::tile_size_for(const FrameBufferFormat& format) const {
@@ -118,6 +123,7 @@ void RendererState::commit_interrupted_buffers(FrameContext& frame) {
 }
 
 FrameStats RendererState::finish(FrameContext& frame) {
+  draw_measurer.finish();
   if (options.trace) options.trace(frame.trace.tasks());
   return frame.stats;
 }

@@ -18,7 +18,12 @@ void RendererState::run_ranges(FrameContext& frame, const GeometryPass& pass, co
   frame.progress.begin_stage(pass.stage, pass.done, ranges.size());
   worker_pool.for_each(ranges.size(), [&](std::size_t i, int worker) {
     const DrawRange range = ranges[i];
-    frame.progress.task(worker, [&] { work(commands.geometry[range.draw], range.first, range.last); });
+    frame.progress.task(worker, [&] {
+      draw_measurer.run(worker, commands.plan_draw[range.draw], &DrawMeasurement::vertex_seconds,
+                        [&] { work(commands.geometry[range.draw], range.first, range.last); });
+    });
+    if (pass.is_of_vertices)
+      draw_measurer.count_vertices(worker, commands.plan_draw[range.draw], range.first, range.last);
   });
 }
 
@@ -30,9 +35,9 @@ void RendererState::run_geometry(FrameContext& frame) {
       [](const GeometryDraw& draw, std::size_t first, std::size_t last) {
         assemble_elements(draw, first, last);
       });
-  normal_stage.run(commands.geometry, worker_pool, frame.progress, kNormalsDone);
+  normal_stage.run(commands, worker_pool, draw_measurer, frame.progress, kNormalsDone);
   run_ranges(
-      frame, {FrameStage::vertices, kVerticesDone, kVerticesPerTask},
+      frame, {FrameStage::vertices, kVerticesDone, kVerticesPerTask, true},
       [](const GeometryDraw& draw) { return draw.mesh->vertices; },
       [this](const GeometryDraw& draw, std::size_t first, std::size_t last) {
         process_vertices(draw, first, last, isa);

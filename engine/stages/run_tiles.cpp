@@ -55,6 +55,7 @@ TileFrame RendererState::tile_frame(const FrameContext& frame) {
   tiles.batches = &bin_stage.batches();
   tiles.shade_immediately = !options.debug.defer_shading;
   tiles.samples = frame.target.format.samples;
+  tiles.meter_pass = options.debug.measure_draws ? MeterPass::costs : MeterPass::none;
   tiles.loads_color = commands.attachments.color.loads();
   tiles.loads_depth = commands.attachments.depth.loads();
   tiles.loads_stencil = commands.attachments.stencil.loads();
@@ -86,6 +87,8 @@ void RendererState::run_tiles(FrameContext& frame) {
                       .stencil = commands.attachments.stencil.used(),
                       .accumulation = commands.attachments.accumulation.used(),
                       .samples = tiles.samples > 1});
+  for (std::size_t w = 0; w < measured_workers(); ++w)
+    workspaces[w].set_meter(draw_measurer.tile_meter(static_cast<int>(w)));
   try {
     render_parts(frame, stage);
   } catch (...) {

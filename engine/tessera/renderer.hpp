@@ -46,6 +46,20 @@ struct FrameStats {
   double tile_seconds = 0;
 };
 
+/// Cost of a draw of a frame; with DebugOptions::measure_draws.
+/// - Times are sums over the threads, in seconds, of the work on the draw alone.
+/// - Loads, clears, scan-out and stores of tiles and waiting belong to no draw.
+/// - Measurements of a draw that is skipped as a whole are 0.
+struct DrawMeasurement {
+  double vertex_seconds = 0;         ///< elements, generated normals, vertices, colours of whole triangles
+  double binning_seconds = 0;        ///< clipping and culling included
+  double tile_seconds = 0;           ///< coverage, tests and colours
+  std::uint64_t vertex_batches = 0;  ///< runs of up to 64 vertices that are processed together
+  std::uint64_t tiles = 0;           ///< tiles that the draw may touch, after binning
+  std::uint64_t shaded_pixels = 0;   ///< colour evaluations; their sum is FrameStats::shaded_pixels
+  std::uint64_t fragments = 0;       ///< pixels covered before any test; with DebugOptions::count_fragments
+};
+
 enum class LogLevel : std::uint8_t { debug, info, warning };
 
 /// Stages of a frame, in this order. Each waits for the one before. With little bin_memory, frames return
@@ -72,6 +86,9 @@ inline constexpr std::size_t kMinBinMemory = std::size_t{64} << 10;  ///< bytes
 struct DebugOptions {
   bool defer_shading = true;     ///< shade once per visible pixel where that is cheaper; false: immediately
   bool count_fragments = false;  ///< fill in FrameStats::fragments; costs one more pass over the tiles
+  /// Fill in Renderer::draw_measurements. Time stamps around the parts of each draw: frames take longer the
+  /// more draws their tiles hold.
+  bool measure_draws = false;
   std::uint32_t task_order = 0;  ///< seed of the order of tasks; 0: the scheduler's own order
 };
 
@@ -127,6 +144,11 @@ class TESSERA_API Renderer {
   FrameStats finish(Frame& frame);
   /// Also writes the picture to the caller's memory, directly from the tiles.
   FrameStats finish(Frame& frame, const ImageTarget& target);
+
+  /// Costs of the draws of the last frame, in the order of recording; bitmaps and images count.
+  /// - Empty without DebugOptions::measure_draws, and after a frame that was cancelled or threw.
+  /// - Valid until the next finish(), and until the renderer is moved or destroyed.
+  std::span<const DrawMeasurement> draw_measurements() const noexcept;
 
   /// The options in effect: threads and instruction_set as chosen.
   const RendererOptions& options() const noexcept;

@@ -24,6 +24,7 @@ constexpr const char* kRenderExamples = R"(Examples:
 
 constexpr const char* kExplainExamples = R"(Examples:
   tessera explain scene.json
+  tessera explain scene.json --measure --threads 1
   tessera explain truck.glb --json > effects.json)";
 
 constexpr const char* kSelftestExamples = R"(Examples:
@@ -224,6 +225,16 @@ CLI::App* add_explain(CLI::App& program, ExplainRequest& request) {
   add_scene_overrides(*command, request.overrides);
   add_view(*command, request.overrides);
   command->add_flag("--json", request.json, "print JSON, with stable codes for effects and reasons");
+  CLI::Option* const measure = command->add_flag(
+      "--measure", request.measure,
+      "also render the scene and print the time of each draw, and for each effect the share "
+      "of batches, tiles and pixels for which it was left out");
+  command
+      ->add_option("--threads", request.threads,
+                   "threads of --measure; default: TESSERA_THREADS, or all cores")
+      ->option_text("N")
+      ->transform(integer_from(1, 1024))
+      ->needs(measure);
   return command;
 }
 

@@ -1,11 +1,13 @@
 #include "engine/program/cli/explain_command.h"
 
 #include <iostream>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "engine/program/cli/measured_scene.h"
 #include "engine/program/cli/progress.h"
 #include "engine/program/cli/scene_input.h"
 
@@ -42,18 +44,21 @@ nlohmann::ordered_json json_of(const EffectExplanation& effect) {
   return json;
 }
 
-std::string explanation_json(const Scene& scene, const Frame& frame) {
+/// @param measured  null: not measured
+std::string explanation_json(const Scene& scene, const Frame& frame, const MeasuredScene* measured) {
   nlohmann::ordered_json json;
   json["draws"] = nlohmann::ordered_json::array();
   std::size_t index = 0;
   for (const NamedDraw& draw : draws_of(scene)) {
-    const DrawExplanation explanation = frame.explanation(index++);
+    const DrawExplanation explanation = frame.explanation(index);
     nlohmann::ordered_json entry{{"kind", draw.kind}};
     if (!draw.name.empty()) entry["mesh"] = draw.name;
     entry["effects"] = nlohmann::ordered_json::array();
     for (const EffectExplanation& effect : explanation.effects) entry["effects"].push_back(json_of(effect));
     entry["code_paths"] = explanation.code_paths;
+    if (measured != nullptr) entry["measured"] = measured_json(measured->draws[index]);
     json["draws"].push_back(entry);
+    ++index;
   }
   json["buffers"] = nlohmann::ordered_json::array();
   for (const BufferNote& note : frame.buffers())
@@ -63,17 +68,19 @@ std::string explanation_json(const Scene& scene, const Frame& frame) {
                                {"stored", note.stored},
                                {"reason", code(note.reason)},
                                {"text", tessera::text(note)}});
+  if (measured != nullptr) json["measured"] = measured_json(*measured);
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
 
-std::string explanation_text(const Scene& scene, const Frame& frame) {
+std::string explanation_text(const Scene& scene, const Frame& frame, const MeasuredScene* measured) {
   std::string text;
   std::size_t index = 0;
   for (const NamedDraw& draw : draws_of(scene)) {
     const std::string name = draw.name.empty() ? draw.kind : "\"" + draw.name + "\"";
     text += "draw " + std::to_string(index) + ", " + name + ":\n" + frame.explain(index);
+    if (measured != nullptr) text += measured_text(measured->draws[index]) + "\n";
     ++index;
   }
   return text;
@@ -92,8 +99,15 @@ int explain(const ExplainRequest& request) {
   FrameBuffer buffer(input.scene().framebuffer);
   Frame frame(buffer);
   record(input.scene(), frame);
-  std::cout << (request.json ? explanation_json(input.scene(), frame)
-                             : explanation_text(input.scene(), frame) + buffers_text(frame));
+  std::optional<MeasuredScene> measured;
+  if (request.measure) measured = measure(input.scene(), request.threads);
+  const MeasuredScene* const measurements = measured ? &*measured : nullptr;
+  if (request.json) {
+    std::cout << explanation_json(input.scene(), frame, measurements);
+    return 0;
+  }
+  std::cout << explanation_text(input.scene(), frame, measurements) << buffers_text(frame);
+  if (measured) std::cout << measured_text(*measured);
   return 0;
 }
 

@@ -1,4 +1,4 @@
-// `tessera explain`: which effects of each draw run, which are skipped, and why. Renders no picture.
+// `tessera explain`: which effects of each draw run, which are skipped, and why. Writes no picture.
 #pragma once
 
 #include <string>
@@ -7,10 +7,14 @@
 
 namespace tessera::program::cli {
 
+struct MeasuredScene;
+
 struct ExplainRequest {
   std::string input;  ///< a scene or a model; empty: the built-in scene
   SceneOverrides overrides;
   bool json = false;
+  bool measure = false;  ///< also renders the scene, and prints times and shares
+  int threads = 0;       ///< for `measure`; 0: all cores
 };
 
 /// Prints the explanation on stdout, as text or as JSON.
@@ -19,6 +23,7 @@ struct ExplainRequest {
 int explain(const ExplainRequest& request);
 
 /// The text of `tessera explain` for a recorded scene.
-std::string explanation_text(const Scene& scene, const Frame& frame);
+/// @param measured  null: not measured
+std::string explanation_text(const Scene& scene, const Frame& frame, const MeasuredScene* measured = nullptr);
 
 }  // namespace tessera::program::cli

@@ -198,6 +198,7 @@ int run(int argument_count, char** arguments) {
   }
   int* threads = nullptr;
   if (commands.render->parsed()) threads = &requests.render.options.threads;
+  if (commands.explain->parsed() && requests.explain.measure) threads = &requests.explain.threads;
   if (commands.selftest->parsed()) threads = &requests.selftest.threads;
   if (threads != nullptr)
     if (const std::string wrong = read_threads_variable(*threads); !wrong.empty())
