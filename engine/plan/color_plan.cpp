@@ -60,7 +60,7 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& la
   const glm::dmat4 view = to_glm(draw.scene_state->camera.view);
   plan.lights.clear();
   for (const Light& light : draw.scene_state->lights) plan.lights.push_back(eye_light(light, view));
-  if (options.elide) prove_light_reach(plan, draw, options.sampled, options.isa);
+  if (options.elide) prove_light_reach(plan, draw, options.isa);
   const TrackedColors tracked =
       draw.mesh.has_colors() ? tracked_colors(draw.state.color_material) : TrackedColors{};
   const bool unit_normals = draw.state.normalize || draw.state.shading == Shading::phong;

@@ -147,16 +147,22 @@ bool lights_between_vertices(const DrawPlan& plan, const DrawState& state) {
   return state.shading == Shading::phong && plan.topology != Topology::points;
 }
 
+/// Whether values between vertices leave the range of the vertices: lines extrapolate beyond their ends. With
+/// several samples a pixel's centre may lie outside of its triangle, but its values are clamped.
+bool extrapolates(const DrawPlan& plan) {
+  const bool draws_edges = plan.mode[0] == PolygonMode::line || plan.mode[1] == PolygonMode::line;
+  return plan.topology == Topology::lines || draws_edges;
+}
+
 }  // namespace
 
-void prove_light_reach(DrawPlan& plan, const RecordedDraw& draw, bool sampled, InstructionSet isa) {
+void prove_light_reach(DrawPlan& plan, const RecordedDraw& draw, InstructionSet isa) {
   const MeshArrays& mesh = draw.mesh;
   const double* const last_row = plan.eye.eye_from_object + 12;
   const bool keeps_w = last_row[0] == 0 && last_row[1] == 0 && last_row[2] == 0 && last_row[3] == 1;
   if (plan.lights.empty() || mesh.vertices == 0 || mesh.components != 3 || !keeps_w) return;
   const bool lights_between = lights_between_vertices(plan, draw.state);
-  const bool lights_outside = sampled || plan.outlines || plan.topology == Topology::lines;
-  if (lights_between && lights_outside) return;
+  if (lights_between && extrapolates(plan)) return;
 
   const LightProofs proofs(plan, mesh);
   find_candidates(proofs, plan);

@@ -8,8 +8,7 @@ namespace tessera::detail {
 /// Sets `plan.light_reach` from the positions and normals of the mesh. Reads a vertex or two if a light
 /// reaches them, otherwise the whole mesh.
 /// @pre `plan` has its lights, eye transform, topology and faces
-/// @param sampled  several samples per pixel: lit pixels may lie outside of their triangles
-/// @param isa      for the scan of the mesh
-void prove_light_reach(DrawPlan& plan, const RecordedDraw& draw, bool sampled, InstructionSet isa);
+/// @param isa  for the scan of the mesh
+void prove_light_reach(DrawPlan& plan, const RecordedDraw& draw, InstructionSet isa);
 
 }  // namespace tessera::detail
