@@ -176,18 +176,25 @@ void set_highlight(LightTerm& term, const LightingModel& model, float shininess)
                                        : exp2_reference(std::max(-visible_bits / exponent, -126.0f));
 }
 
+/// The field that makes the products of a light and a material black. Empty: the light's colours.
+std::string_view cause_of_black(const EyeLight& light) {
+  const bool has_cone = light.directional && light.spot_cutoff != 180;
+  if (has_cone && directional_spot_factor(light) == 0) return ".spot_cutoff";
+  return is_black(light.diffuse) && is_black(light.specular) ? "" : "material.diffuse";
+}
+
 /// Adds the term of one light to the program, unless it cannot contribute or is constant.
 /// @param number  number of the light, for notes
 void plan_term(LightingProgram& program, const EyeLight& light, int number, LightReach reach,
                const SurfaceMaterial& material, const TrackedColors& tracked, const LightingModel& model,
                const EffectNotes& notes) {
-  const auto note_skipped = [&](EffectReason reason) {
-    notes.add({.effect = Effect::light, .active = false, .reason = reason, .light = number});
+  const auto note_skipped = [&](EffectReason reason, std::string_view cause = {}) {
+    notes.add({.effect = Effect::light, .active = false, .reason = reason, .light = number, .cause = cause});
   };
   LightTerm term;
   fold_colors(term, light, material, tracked);
   const bool has_only_ambient = !has_diffuse(term) && !has_specular(term);
-  if (has_only_ambient && !has_ambient(term)) return note_skipped(EffectReason::black);
+  if (has_only_ambient && !has_ambient(term)) return note_skipped(EffectReason::black, cause_of_black(light));
   term.kind = kind_of(light);
   // The ambient term of a directional light is constant.
   if (term.kind == LightKind::directional) {

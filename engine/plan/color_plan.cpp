@@ -179,10 +179,17 @@ void plan_unstored_color(DrawPlan& plan, const RecordedDraw& draw, const EffectN
   notes.skipped(Effect::shading, EffectReason::no_color_stored);
 }
 
+/// The one colour of a draw, before texturing.
+struct DrawColor {
+  Rgb color;
+  std::string_view cause;  ///< the field because of which there is only one
+};
+
 /// Plans what colours are computed from: colour indices, vertex colours, or materials and lights.
-/// @return  the colour before texturing, if the draw has only one
-std::optional<Rgb> plan_color_inputs(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
-                                     const ColorOptions& options, const EffectNotes& notes) {
+/// @return  the colour of the draw, if it has only one
+std::optional<DrawColor> plan_color_inputs(DrawPlan& plan, const RecordedDraw& draw,
+                                           const ColorLayout& layout, const ColorOptions& options,
+                                           const EffectNotes& notes) {
   const DrawState& state = draw.state;
   note_unused_colors(plan, draw, layout, notes);
   if (state.lighting) {
@@ -191,13 +198,14 @@ std::optional<Rgb> plan_color_inputs(DrawPlan& plan, const RecordedDraw& draw, c
     if (plan.lit) {
       const std::optional<Rgb> color = options.elide ? equal_lit_color(plan, draw) : std::nullopt;
       plan.lit = !color;
-      if (color) notes.active(Effect::lighting, EffectReason::equal_normals);
-      return color;
+      if (!color) return std::nullopt;
+      notes.active(Effect::lighting, EffectReason::equal_normals);
+      return DrawColor{*color, "mesh.normals"};
     }
     plan.two_sided = false;
     if (plan.is_index[0]) plan.constant_index = unlit_index(plan.front);
     notes.skipped(Effect::lighting, EffectReason::independent_of_surface);
-    return plan.front.base;
+    return DrawColor{plan.front.base, "lights"};
   }
   notes.skipped(Effect::lighting, EffectReason::disabled);
   if (plan.uses_color_indices) {
@@ -213,14 +221,14 @@ std::optional<Rgb> plan_color_inputs(DrawPlan& plan, const RecordedDraw& draw, c
     plan.uses_vertex_colors = plan.vertex_alpha = false;
     plan.alpha[0] = plan.alpha[1] = clamp_unit((*equal)[3]);
     notes.active(Effect::vertex_colors, EffectReason::equal_colors);
-    return Rgb{(*equal)[0], (*equal)[1], (*equal)[2]};
+    return DrawColor{{(*equal)[0], (*equal)[1], (*equal)[2]}, "mesh.colors"};
   }
   if (plan.uses_vertex_colors) {
     notes.active(Effect::vertex_colors);
     return std::nullopt;
   }
   notes.skipped(Effect::vertex_colors, EffectReason::not_in_mesh);
-  return rgb(state.material.diffuse);
+  return DrawColor{rgb(state.material.diffuse), "mesh.colors"};
 }
 
 /// Phong shading: lighting at the pixels.
@@ -292,9 +300,9 @@ void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
 void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
                 const ColorOptions& options, const EffectNotes& notes) {
   if (plan.write_mask == 0) return plan_unstored_color(plan, draw, notes);
-  if (const std::optional<Rgb> color = plan_color_inputs(plan, draw, layout, options, notes)) {
-    notes.active(Effect::shading, EffectReason::per_draw);
-    return set_constant_color(plan, *color, layout);
+  if (const std::optional<DrawColor> one = plan_color_inputs(plan, draw, layout, options, notes)) {
+    notes.add({.effect = Effect::shading, .reason = EffectReason::per_draw, .cause = one->cause});
+    return set_constant_color(plan, one->color, layout);
   }
   const Shading shading = draw.state.shading;
   const bool generates_normals = plan.needs_normal() && !draw.mesh.normals;

@@ -125,14 +125,29 @@ void plan_shading(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferSta
              {.sampled = target.format.samples > 1, .elide = options.elide, .isa = options.isa}, notes);
 }
 
-/// No buffer can change.
-bool changes_nothing(const DrawPlan& plan) {
-  if (plan.rect.empty()) return true;
+/// The field that leaves a draw without pixels.
+std::string_view cause_of_empty_rect(const RecordedDraw& draw) {
+  if (draw.state.scissor) return "scissor";
+  if (!draw.pixels) return "viewport";
+  return draw.pixels->rectangle.channels == 0 ? "bitmap" : "image";
+}
+
+/// The field that keeps a draw from changing any colour.
+std::string_view cause_of_empty_mask(const DrawState& state) {
+  const std::array<bool, 4>& mask = state.color_mask;
+  if (std::none_of(mask.begin(), mask.end(), [](bool is_on) { return is_on; })) return "color_mask";
+  return state.blend ? "blend" : "plane_mask";
+}
+
+/// The field that keeps a draw from changing any buffer. Empty if a buffer may change.
+std::string_view cause_of_no_change(const DrawPlan& plan, const RecordedDraw& draw) {
+  if (plan.rect.empty()) return cause_of_empty_rect(draw);
   const bool fails_alpha_test = plan.ops.alpha_test && plan.ops.alpha_func == Compare::never;
-  if (fails_alpha_test) return true;
-  if (plan.uses_stencil && (plan.ops.faces[0].writes() || plan.ops.faces[1].writes())) return false;
-  if (plan.uses_depth && plan.depth_test == Compare::never) return true;
-  return plan.write_mask == 0 && !(plan.uses_depth && plan.depth_write);
+  if (fails_alpha_test) return "alpha_test";
+  if (plan.uses_stencil && (plan.ops.faces[0].writes() || plan.ops.faces[1].writes())) return {};
+  if (plan.uses_depth && plan.depth_test == Compare::never) return "depth.test";
+  const bool writes = plan.write_mask != 0 || (plan.uses_depth && plan.depth_write);
+  return writes ? std::string_view() : cause_of_empty_mask(draw.state);
 }
 
 }  // namespace
@@ -208,8 +223,9 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
                  plan.textures_per_pixel ? EffectReason::one_color_per_pixel : EffectReason::folded);
   plan.varyings = varying_layout(plan, options.capture_normals);
   if (plan.varyings.texcoord >= 0) plan.texture.texture.attribute = plan.varyings.texcoord;
-  plan.is_noop = changes_nothing(plan);
-  if (plan.is_noop) notes.skipped(Effect::draw, EffectReason::no_pixel_can_change);
+  const std::string_view cause = cause_of_no_change(plan, draw);
+  plan.is_noop = !cause.empty();
+  if (plan.is_noop) notes.skipped(Effect::draw, EffectReason::no_pixel_can_change, cause);
 }
 
 }  // namespace tessera::detail

@@ -43,7 +43,7 @@ std::string_view field_of(Effect effect) {
   return "";
 }
 
-/// Field that decides; that of a light begins with a dot.
+/// Field that decides, unless the note names it. That of a light begins with a dot.
 std::string_view field_of(const EffectNote& note) {
   switch (note.reason) {
     case EffectReason::disabled:
@@ -52,7 +52,8 @@ std::string_view field_of(const EffectNote& note) {
     case EffectReason::stores_indices:
     case EffectReason::rgb_buffer: return "framebuffer.color_mode";
     case EffectReason::no_color_stored: return "color_mask";
-    case EffectReason::no_faces: return "mesh.primitive";
+    case EffectReason::no_faces:
+    case EffectReason::per_point: return "mesh.primitive";
     case EffectReason::draw_is_lit: return "lighting";
     case EffectReason::draw_has_color_indices: return "mesh.color_indices";
     case EffectReason::color_material_none: return "color_material";
@@ -73,8 +74,7 @@ std::string_view field_of(const EffectNote& note) {
 }  // namespace
 
 std::string cause_of(const EffectNote& note) {
-  if (!note.cause.empty()) return std::string(note.cause);
-  const std::string_view field = field_of(note);
+  const std::string_view field = note.cause.empty() ? field_of(note) : note.cause;
   if (note.light < 0) return std::string(field);
   // Fields of a light follow its number; those of the material and the light model do not need it.
   if (!field.starts_with('.')) return std::string(field);
