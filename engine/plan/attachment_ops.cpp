@@ -42,7 +42,7 @@ BufferCommands commands_of(Buffer which) {
   switch (which) {
     case Buffer::color:
       return {[](const TileClear& clear) { return clear.color; },
-              [](const DrawPlan& plan) { return plan.write_mask != 0; }, color_access};
+              [](const DrawPlan& plan) { return plan.touches_color; }, color_access};
     case Buffer::depth:
       return {[](const TileClear& clear) { return clear.depth; },
               [](const DrawPlan& plan) { return plan.uses_depth; }, no_access};

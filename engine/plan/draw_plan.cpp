@@ -9,6 +9,7 @@
 #include "engine/plan/eye_space.h"
 #include "engine/plan/fragment_plan.h"
 #include "engine/plan/pixel_plan.h"
+#include "engine/plan/view_facts.h"
 #include "engine/record/matrix.h"
 #include "raster/fixed_point.h"
 
@@ -139,6 +140,15 @@ std::string_view cause_of_empty_mask(const DrawState& state) {
   return state.blend ? "blend" : "plane_mask";
 }
 
+/// Whether the state alone keeps a draw from changing any buffer.
+bool is_noop_by_state(const DrawPlan& plan, const DrawState& state) {
+  if (plan.rect.empty()) return true;
+  if (state.alpha_test && state.alpha_test->func == Compare::never) return true;
+  if (plan.uses_stencil && (plan.ops.faces[0].writes() || plan.ops.faces[1].writes())) return false;
+  if (plan.uses_depth && plan.depth_test == Compare::never) return true;
+  return !plan.touches_color && !(plan.uses_depth && plan.depth_write);
+}
+
 /// The field that keeps a draw from changing any buffer. Empty if a buffer may change.
 std::string_view cause_of_no_change(const DrawPlan& plan, const RecordedDraw& draw) {
   if (plan.rect.empty()) return cause_of_empty_rect(draw);
@@ -198,6 +208,7 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
   const DrawState& state = draw.state;
   plan.reset();
   plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
+  plan.touches_color = plan.write_mask != 0;
   std::optional<EqualAlpha> alpha;
   if (options.elide && (state.alpha_test || state.blend)) alpha = equal_fragment_alpha(draw);
   if (alpha && plan.write_mask != 0 && keeps_stored_colors(state, target, alpha->value)) {
@@ -216,6 +227,11 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
   plan_depth(plan, state, target);
   note_depth(plan, state, target, notes);
   plan_operations(plan, draw, target, alpha, notes);
+  plan.is_noop = is_noop_by_state(plan, state);
+  if (options.elide && !plan.is_noop && !draw.pixels && is_outside_view(plan, draw.mesh, options.isa)) {
+    plan.is_left_out = true;
+    return notes.skipped(Effect::draw, EffectReason::outside_view);
+  }
   if (draw.pixels) plan_pixel_colors(plan, *draw.pixels, notes);
   else plan_shading(plan, draw, target, options, notes);
   if (plan.texture.use == TexturePlan::Use::one_color)
@@ -224,8 +240,9 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
   plan.varyings = varying_layout(plan, options.capture_normals);
   if (plan.varyings.texcoord >= 0) plan.texture.texture.attribute = plan.varyings.texcoord;
   const std::string_view cause = cause_of_no_change(plan, draw);
-  plan.is_noop = !cause.empty();
-  if (plan.is_noop) notes.skipped(Effect::draw, EffectReason::no_pixel_can_change, cause);
+  if (cause.empty()) return;
+  plan.is_left_out = !plan.is_noop;
+  notes.skipped(Effect::draw, EffectReason::no_pixel_can_change, cause);
 }
 
 }  // namespace tessera::detail

@@ -36,7 +36,8 @@ struct DrawPlan {
   bool keep_front = true;
   bool keep_back = true;
   bool front_is_clockwise = false;
-  bool is_noop = false;  ///< no buffer can change
+  bool is_noop = false;      ///< the state lets no buffer change
+  bool is_left_out = false;  ///< the data let no buffer change. Attachments are loaded and stored as with it
 
   // A bitmap or an image in place of a mesh.
   std::optional<PixelRectangle> pixel_rectangle;
@@ -46,6 +47,7 @@ struct DrawPlan {
   ColorSource source = ColorSource::constant;
   bool deferred = false;  ///< colours are evaluated once per visible pixel
   std::uint32_t write_mask = 0xffffffffu;
+  bool touches_color = true;  ///< the state lets colours change; with alpha 0, write_mask may still be 0
   bool uses_depth = false;
   bool depth_write = false;
   Compare depth_test = Compare::less;

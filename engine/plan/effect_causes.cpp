@@ -67,6 +67,8 @@ std::string_view field_of(const EffectNote& note) {
     case EffectReason::phong_infinite_viewer:
     case EffectReason::phong_local_viewer: return "light_model.specular";
     case EffectReason::equal_normals: return "mesh.normals";
+    case EffectReason::outside_view: return "mesh.positions";
+    case EffectReason::never_read: return "clear";
     default: return field_of(note.effect);
   }
 }

@@ -115,6 +115,9 @@ constexpr ReasonWords kReasons[] = {
     {EffectReason::every_fragment_fails, "every_fragment_fails", "skipped, every fragment fails"},
     {EffectReason::equal_normals, "equal_normals", "once, all normals are equal"},
     {EffectReason::equal_colors, "equal_colors", "one colour, all vertices have it"},
+    {EffectReason::outside_view, "outside_view", "skipped, it is outside the view volume or the scissor"},
+    {EffectReason::never_read, "never_read",
+     "skipped, the buffers that it changes are replaced before anything reads them"},
 };
 
 struct BufferWords {
@@ -141,7 +144,7 @@ static_assert(is_indexed_by(kEffects, &EffectWords::effect));
 static_assert(is_indexed_by(kReasons, &ReasonWords::reason));
 static_assert(is_indexed_by(kBufferReasons, &BufferWords::reason));
 static_assert(std::size(kEffects) == static_cast<std::size_t>(Effect::light_tracked_colors) + 1);
-static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::equal_colors) + 1);
+static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::never_read) + 1);
 
 const EffectWords& words_of(Effect effect) { return kEffects[static_cast<std::size_t>(effect)]; }
 const ReasonWords& words_of(EffectReason reason) { return kReasons[static_cast<std::size_t>(reason)]; }

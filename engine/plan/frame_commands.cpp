@@ -51,16 +51,16 @@ std::optional<TileAccumulation> plan_accumulation(const Accum& accum, const Fram
   return command;
 }
 
+/// Captures show draws that change no colour, too.
+bool has_captures(const Capture& capture) {
+  return !capture.draw_ids.empty() || !capture.primitive_ids.empty() || !capture.normals.empty();
+}
+
 /// Plans each draw, and lists the plans of draws that can change a pixel.
 void plan_draws(FrameCommands& commands, FrameRecording& recording, PlanOptions options,
                 WorkerPool* worker_pool) {
   const std::size_t draws = recording.draws.size();
-  const Capture& capture = recording.capture;
-  const bool captures =
-      !capture.draw_ids.empty() || !capture.primitive_ids.empty() || !capture.normals.empty();
-  // Captures show draws that change no colour, too.
-  options.capture_normals = !capture.normals.empty();
-  options.elide &= !captures;
+  options.capture_normals = !recording.capture.normals.empty();
   const auto plan_range = [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
       plan_draw(commands.plan_memory[i], recording.draws[i], *recording.target, options,
@@ -109,24 +109,84 @@ std::optional<TileClear> plan_clear(const Clear& clear, FrameBufferState& target
 }
 
 void plan_clears(FrameCommands& commands, FrameRecording& recording) {
-  for (const RecordedClear& recorded : recording.clears) {
+  for (std::size_t i = 0; i < recording.clears.size(); ++i) {
+    const RecordedClear& recorded = recording.clears[i];
     commands.first_clear_at.push_back(static_cast<std::uint32_t>(commands.clears.size()));
     std::optional<TileClear> command = plan_clear(recorded.clear, *recording.target);
     if (!command) continue;
     command->before_draw = commands.first_plan_at[recorded.before_draw];
     commands.clears.push_back(*command);
+    commands.clear_record.push_back(i);
   }
   commands.first_clear_at.push_back(static_cast<std::uint32_t>(commands.clears.size()));
 }
 
 void plan_accumulations(FrameCommands& commands, const FrameRecording& recording) {
-  for (const RecordedAccum& recorded : recording.accumulations) {
+  for (std::size_t i = 0; i < recording.accumulations.size(); ++i) {
+    const RecordedAccum& recorded = recording.accumulations[i];
     std::optional<TileAccumulation> command = plan_accumulation(recorded.accum, *recording.target);
     if (!command) continue;
     command->before_draw = commands.first_plan_at[recorded.before_draw];
     command->after_clears = commands.first_clear_at[recorded.after_clears];
     commands.accumulations.push_back(*command);
+    commands.accumulation_record.push_back(i);
   }
+}
+
+/// Removes the items for which `is_live(i)` is false. Afterwards new_index[i] is the number of items that
+/// were kept before item i; one element past the last.
+template <class Item, class IsLive>
+void keep_live(std::vector<Item>& items, const IsLive& is_live, std::vector<std::uint32_t>* new_index) {
+  std::size_t kept = 0;
+  if (new_index != nullptr) new_index->clear();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (new_index != nullptr) new_index->push_back(static_cast<std::uint32_t>(kept));
+    if (!is_live(i)) continue;
+    if (kept != i) items[kept] = items[i];
+    ++kept;
+  }
+  if (new_index != nullptr) new_index->push_back(static_cast<std::uint32_t>(kept));
+  items.erase(items.begin() + static_cast<std::ptrdiff_t>(kept), items.end());
+}
+
+/// Removes draws that are left out, and commands whose result nothing reads. A clear keeps the buffers for
+/// which it is read.
+void drop_dead_commands(FrameCommands& commands, const FrameRecording& recording, bool presented) {
+  BufferFlags read_at_end;
+  for (const Buffer buffer : kBuffers)
+    read_at_end[static_cast<std::size_t>(buffer)] = commands.attachments[buffer].stores();
+  read_at_end[static_cast<std::size_t>(Buffer::color)] |= presented;
+  find_live_commands(commands.live, recording, read_at_end);
+  for (std::size_t i = 0; i < commands.plans.size(); ++i)
+    if (commands.plans[i]->is_left_out) commands.live.draws[commands.plan_draw[i]] = 0;
+
+  const auto is_live_plan = [&](std::size_t i) { return commands.live.draws[commands.plan_draw[i]] != 0; };
+  keep_live(commands.plans, is_live_plan, &commands.first_plan_at);
+  std::erase_if(commands.plan_draw, [&](std::size_t draw) { return commands.live.draws[draw] == 0; });
+  for (std::size_t i = 0; i < commands.clears.size(); ++i) {
+    TileClear& clear = commands.clears[i];
+    const BufferFlags& is_read = commands.live.clears[commands.clear_record[i]];
+    clear.color &= is_read[0];
+    clear.depth &= is_read[1];
+    clear.stencil &= is_read[2];
+    clear.accumulation &= is_read[3];
+    clear.before_draw = commands.first_plan_at[clear.before_draw];
+  }
+  keep_live(
+      commands.clears,
+      [&](std::size_t i) {
+        const TileClear& clear = commands.clears[i];
+        return clear.color || clear.depth || clear.stencil || clear.accumulation;
+      },
+      &commands.first_clear_at);
+  for (TileAccumulation& accumulation : commands.accumulations) {
+    accumulation.before_draw = commands.first_plan_at[accumulation.before_draw];
+    accumulation.after_clears = commands.first_clear_at[accumulation.after_clears];
+  }
+  const auto is_live_accumulation = [&](std::size_t i) {
+    return commands.live.accumulations[commands.accumulation_record[i]] != 0;
+  };
+  keep_live(commands.accumulations, is_live_accumulation, nullptr);
 }
 
 /// Renumbers `before_draw` from plans to tile draws.
@@ -171,19 +231,23 @@ void FrameCommands::reset() {
   tile_draws.clear();
   tile_draw_plan.clear();
   clears.clear();
+  clear_record.clear();
   accumulations.clear();
+  accumulation_record.clear();
   first_plan_at.clear();
   first_clear_at.clear();
   attachments = {};
 }
 
-void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented,
-                const PlanOptions& options, std::deque<DrawBuffers>& buffers, WorkerPool* worker_pool) {
+void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented, PlanOptions options,
+                std::deque<DrawBuffers>& buffers, WorkerPool* worker_pool) {
   commands.reset();
+  options.elide &= !has_captures(recording.capture);
   plan_draws(commands, recording, options, worker_pool);
   plan_clears(commands, recording);
   plan_accumulations(commands, recording);
   commands.attachments = plan_attachments(commands, recording, presented);
+  if (options.elide) drop_dead_commands(commands, recording, presented);
   // Tiles have no memory for attachments that are not used.
   for (TileClear& clear : commands.clears) {
     clear.stencil &= commands.attachments.stencil.used();

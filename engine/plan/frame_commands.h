@@ -7,6 +7,7 @@
 
 #include "engine/plan/attachment_ops.h"
 #include "engine/plan/draw_plan.h"
+#include "engine/plan/live_commands.h"
 #include "engine/record/recording.h"
 #include "engine/runtime/worker_pool.h"
 #include "engine/stages/geometry.h"
@@ -25,7 +26,10 @@ struct FrameCommands {
   std::vector<TileDraw> tile_draws;
   std::vector<std::size_t> tile_draw_plan;  ///< per tile draw: its plan
   std::vector<TileClear> clears;
+  std::vector<std::size_t> clear_record;  ///< per clear: its recorded clear
   std::vector<TileAccumulation> accumulations;
+  std::vector<std::size_t> accumulation_record;  ///< per accumulation: its recorded accumulation
+  LiveCommands live;                             ///< memory of plan_frame()
   /// Per recorded draw, and one past the last: index of the first plan of this or a later draw.
   std::vector<std::uint32_t> first_plan_at;
   /// Per recorded clear, and one past the last: index of the first tile clear of this or a later clear.
@@ -39,13 +43,14 @@ struct FrameCommands {
 GeometryDraw geometry_draw(const RecordedDraw& draw, const DrawPlan& plan, FrameBufferState& target,
                            DrawBuffers& buffers);
 
-/// Plans every draw, clear and accumulation that can change a pixel.
+/// Plans every draw, clear and accumulation that can change a pixel. With PlanOptions::elide, commands whose
+/// result nothing reads are left out; attachments are loaded and stored as with them.
 /// @param commands   is replaced
 /// @param presented  the colour goes to an image
 /// @param options    of every draw; captures are taken from `recording`
 /// @param worker_pool  plans many draws in parallel; null: serial
 /// @throws Error  if the frame loads a buffer that the frame before did not keep
-void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented,
-                const PlanOptions& options, std::deque<DrawBuffers>& buffers, WorkerPool* worker_pool);
+void plan_frame(FrameCommands& commands, FrameRecording& recording, bool presented, PlanOptions options,
+                std::deque<DrawBuffers>& buffers, WorkerPool* worker_pool);
 
 }  // namespace tessera::detail

@@ -140,7 +140,7 @@ void build_tile_draws(FrameCommands& commands, const PixelPathFrame& frame) {
 std::vector<PixelPath> pixel_paths_of(const RecordedDraw& draw, const DrawPlan& plan,
                                       FrameBufferState& target) {
   std::vector<PixelPath> paths;
-  if (plan.is_noop) return paths;
+  if (plan.is_noop || plan.is_left_out) return paths;
   DrawBuffers buffers;
   const PixelPathFrame frame{.layout = target.layout,
                              .depth_format = target.depth_format,

@@ -41,6 +41,23 @@ BufferReason reason_of(const AttachmentOps& ops) {
   return BufferReason::not_used;
 }
 
+/// Whether what the draw changes may be read by a later command or after the frame.
+bool is_read_later(const FrameRecording& recording, std::size_t draw) {
+  LiveCommands live;
+  find_live_commands(live, recording, buffers_after_frame(recording));
+  return live.draws[draw] != 0;
+}
+
+/// Plans a draw for its notes.
+void explain_draw(DrawPlan& plan, const FrameRecording& recording, std::size_t draw,
+                  std::vector<EffectNote>& list) {
+  const EffectNotes notes(&list);
+  plan_draw(plan, recording.draws[draw], *recording.target, {}, notes);
+  if (plan.is_noop || plan.is_left_out || is_read_later(recording, draw)) return;
+  plan.is_left_out = true;
+  notes.skipped(Effect::draw, EffectReason::never_read);
+}
+
 }  // namespace
 
 std::vector<EffectNote> Frame::effects(std::size_t draw_index) const {
@@ -49,7 +66,7 @@ std::vector<EffectNote> Frame::effects(std::size_t draw_index) const {
     const FloatingPointMode mode;
     std::vector<EffectNote> notes;
     DrawPlan plan;
-    plan_draw(plan, recording_->draws[draw_index], *recording_->target, {}, EffectNotes(&notes));
+    explain_draw(plan, *recording_, draw_index, notes);
     return notes;
   });
 }
@@ -61,7 +78,7 @@ DrawExplanation Frame::explanation(std::size_t draw_index) const {
     const RecordedDraw& draw = recording_->draws[draw_index];
     std::vector<EffectNote> notes;
     DrawPlan plan;
-    plan_draw(plan, draw, *recording_->target, {}, EffectNotes(&notes));
+    explain_draw(plan, *recording_, draw_index, notes);
     DrawExplanation explanation;
     for (const EffectNote& note : notes)
       explanation.effects.push_back({.note = note, .cause = cause_of(note), .text = text_of(note)});

@@ -95,7 +95,9 @@ enum class EffectReason : std::uint8_t {
   every_fragment_passes,      ///< the alpha of all fragments passes the test
   every_fragment_fails,       ///< the alpha of all fragments fails the test
   equal_normals,              ///< all normals are equal, lights directional, the viewer infinite
-  equal_colors                ///< all vertex colours are equal
+  equal_colors,               ///< all vertex colours are equal
+  outside_view,               ///< all vertices are outside one side of the view volume or the scissor
+  never_read                  ///< the buffers that it changes are replaced before anything reads them
 };
 
 /// One effect of a draw. Frame::effects returns them, Frame::explain their text.
@@ -103,13 +105,15 @@ struct EffectNote {
   Effect effect = Effect::draw;
   bool active = true;  ///< false: no code runs for it
   EffectReason reason = EffectReason::requested;
-  bool back_faces = false;   ///< two-sided lighting: about the back faces' material
-  int light = -1;            ///< number of the light, from 0; -1: not about a light
-  int width = 0;             ///< bitmap, image and texture: texels per row
-  int height = 0;            ///< bitmap, image and texture: rows
-  int channels = 0;          ///< image and texture: 1 to 4
-  int samples = 0;           ///< multisampling: per pixel
-  std::string_view cause{};  ///< the field that decides, where effect and reason do not determine it
+  bool back_faces = false;  ///< two-sided lighting: about the back faces' material
+  int light = -1;           ///< number of the light, from 0; -1: not about a light
+  int width = 0;            ///< bitmap, image and texture: texels per row
+  int height = 0;           ///< bitmap, image and texture: rows
+  int channels = 0;         ///< image and texture: 1 to 4
+  int samples = 0;          ///< multisampling: per pixel
+  /// The field that decides, where effect and reason do not determine it. That of a light begins with a dot;
+  /// EffectExplanation::cause is complete.
+  std::string_view cause{};
 
   bool operator==(const EffectNote&) const = default;
 };

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "engine/program/scene/builtin_mesh.h"
 #include "engine/program/scene/scene.h"
@@ -17,7 +18,8 @@ struct Elision {
   const char* name;
   const char* description;
   Shading shading;
-  std::function<void(Scene&, DrawState&)> change;
+  std::function<void(Scene&, DrawState&)> change{};
+  std::function<void(Scene&)> rearrange{};  ///< after `change`
 };
 
 /// Replaces the teapot by a square in front of the camera, with equal normals.
@@ -40,6 +42,22 @@ Light point_behind() {
   Light light;
   light.position = {0.5f, 0, -3, 1};
   return light;
+}
+
+/// Adds seven teapots to the right of the view.
+void add_draws_elsewhere(Scene& scene) {
+  const SceneCommand last = scene.frame.back();
+  for (int i = 0; i < 7; ++i) {
+    scene.frame.push_back(last);
+    if (auto* const draw = std::get_if<DrawCommand>(&scene.frame.back().value))
+      draw->state.transform = translate(50, 0, 0) * draw->state.transform;
+  }
+}
+
+/// Draws everything twice; the second time replaces the first.
+void draw_twice(Scene& scene) {
+  const std::vector<SceneCommand> once = scene.frame;
+  scene.frame.insert(scene.frame.end(), once.begin(), once.end());
 }
 
 std::vector<Elision> elisions() {
@@ -69,6 +87,10 @@ std::vector<Elision> elisions() {
        [](Scene&, DrawState& state) { state.blend = BlendState{}; }},
       {"alpha-test", "the lit teapot, an alpha test that every fragment passes", Shading::phong,
        [](Scene&, DrawState& state) { state.alpha_test = AlphaTest{}; }},
+      {"outside", "the lit teapot, and seven more outside the view", Shading::gouraud,
+       [](Scene&, DrawState&) {}, add_draws_elsewhere},
+      {"never-read", "the lit teapot, cleared and drawn again", Shading::phong, [](Scene&, DrawState&) {},
+       draw_twice},
   };
 }
 
@@ -77,6 +99,7 @@ Drawing elision_drawing(int width, int height, const Elision& elision, bool in_f
   apply({.width = width, .height = height, .shading = elision.shading}, *scene);
   for (SceneCommand& command : scene->frame)
     if (auto* const draw = std::get_if<DrawCommand>(&command.value)) elision.change(*scene, draw->state);
+  if (elision.rearrange) elision.rearrange(*scene);
   Drawing drawing;
   drawing.format = scene->framebuffer;
   drawing.meshes = scene->meshes;

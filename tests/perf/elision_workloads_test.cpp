@@ -20,7 +20,7 @@ TEST(ElisionWorkloads, HaveThePictureOfTheirBaseline) {
     EXPECT_EQ(workload->picture().rgba, elided->picture().rgba) << entry.name;
     ++compared;
   }
-  EXPECT_GE(compared, 7);
+  EXPECT_GE(compared, 9);
 }
 
 }  // namespace

@@ -209,6 +209,7 @@ TEST(FrameOddData, EmptyMeshesDrawNothing) {
 }
 
 TEST(FrameOddData, TrianglesBehindTheEyeAreTriviallyRejected) {
+  const RendererOptions in_full{.threads = 1, .elide = false};
   Camera camera;
   camera.projection = perspective(60, 9.0 / 7, 0.5, 50);
   MeshData mesh = row_of_triangles(6);
@@ -216,16 +217,16 @@ TEST(FrameOddData, TrianglesBehindTheEyeAreTriviallyRejected) {
     for (std::size_t i = 2; i < mesh.positions.size(); i += 3) mesh.positions[i] = z;
   };
   move_to(3);  // the camera faces -z
-  const Result behind = draw(mesh, {}, {.threads = 1}, camera);
-  const Result empty = draw({}, {}, {.threads = 1}, camera);
+  const Result behind = draw(mesh, {}, in_full, camera);
+  const Result empty = draw({}, {}, in_full, camera);
   EXPECT_EQ(behind.stats.trivially_rejected, 6u);
   EXPECT_EQ(behind.pixels, empty.pixels);
   move_to(0);  // in the eye's plane: w is 0
-  EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.trivially_rejected, 6u);
+  EXPECT_EQ(draw(mesh, {}, in_full, camera).stats.trivially_rejected, 6u);
   move_to(-60);  // behind the far plane
-  EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.trivially_rejected, 6u);
+  EXPECT_EQ(draw(mesh, {}, in_full, camera).stats.trivially_rejected, 6u);
   move_to(-3);
-  EXPECT_EQ(draw(mesh, {}, {.threads = 1}, camera).stats.binned, 6u);
+  EXPECT_EQ(draw(mesh, {}, in_full, camera).stats.binned, 6u);
 }
 
 TEST(FrameStatistics, AddUpWithoutClipping) {

@@ -41,11 +41,13 @@ std::string scene_file(const json& parts) {
   scene["frame"] = json::array();
   if (parts.contains("clear")) scene["frame"].push_back({{"clear", parts["clear"]}});
   scene["frame"].push_back(parts["command"]);
+  if (parts.contains("last_clear")) scene["frame"].push_back({{"clear", parts["last_clear"]}});
   return scene.dump();
 }
 
 json::json_pointer place_of_cause(const std::string& cause) {
   // These are commands themselves.
+  if (cause == "clear") return json::json_pointer("/last_clear");
   if (cause == "bitmap" || cause == "image") return json::json_pointer("/command");
   std::string place = in_scene_file(cause);
   for (const char* part : {"framebuffer", "light_model", "lights", "material", "mesh"})
@@ -205,6 +207,10 @@ std::vector<ReasonCase> reason_cases() {
        R"({"command": {"lighting": false},
            "mesh": {"colors": [[1, 0, 0, 1], [1, 0, 0, 1], [1, 0, 0, 1], [1, 0, 0, 1]]}})",
        "mesh.colors", "[[1, 0, 0, 1], [1, 0, 0, 1], [1, 0, 0, 1], [1, 0, 0.5, 1]]"},
+      {outside_view, "draw", R"({"mesh": {"positions": [[2, -1, 0], [3, -1, 0], [3, 1, 0], [2, 1, 0]]}})",
+       "mesh.positions", "[[0.5, -1, 0], [3, -1, 0], [3, 1, 0], [2, 1, 0]]"},
+      {never_read, "draw", R"({"command": {"depth": false}, "last_clear": {"color": [0, 0, 1, 1]}})", "clear",
+       "null"},
   };
 }
 

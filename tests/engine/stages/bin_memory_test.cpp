@@ -162,8 +162,10 @@ TEST(BinMemory, LimitsTheBytesOfManyTiles) {
   FrameBuffer buffer({.width = 2048, .height = 2048});
   Frame frame(buffer);
   const auto peak_bytes_with = [&](std::size_t bin_memory) {
-    Renderer renderer(
-        {.tile_size = 32, .bin_memory = bin_memory, .executor = std::make_shared<SingleThreadExecutor>(4)});
+    Renderer renderer({.tile_size = 32,
+                       .elide = false,  // nothing reads the picture
+                       .bin_memory = bin_memory,
+                       .executor = std::make_shared<SingleThreadExecutor>(4)});
     frame.keep({});
     frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
     frame.draw(triangles.view(), {.lighting = false});
