@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/tessera/tessera.hpp"
+#include "raster/bins.h"
 #include "shading/draw_meter.h"
 
 namespace tessera::detail {
@@ -39,6 +40,8 @@ class DrawMeasurer {
     run(0, draw, seconds, work);
     sum = before + (sum - before) * static_cast<double>(workers_in_use_);
   }
+  /// Counts the elements that a task has binned between two states of its counts.
+  void count_elements(int worker, std::size_t draw, const BinCounts& before, const BinCounts& after);
   /// Counts vertices [first, last), which one task processes.
   void count_vertices(int worker, std::size_t draw, std::size_t first, std::size_t last);
   /// Null if draws are not measured.

@@ -76,6 +76,8 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 const RendererOptions& Renderer::options() const noexcept { return state_->options; }
+const WorkCounts& Renderer::work_counts() const noexcept { return state_->work_counts; }
+
 std::span<const DrawMeasurement> Renderer::draw_measurements() const noexcept {
   return state_->draw_measurer.results();
 }

@@ -46,6 +46,7 @@ struct RendererState {
   std::deque<DrawBuffers> draw_buffers;
   DrawRanges ranges;  ///< tasks of the current geometry pass
   DrawMeasurer draw_measurer;
+  WorkCounts work_counts;  ///< work of the last frame
   NormalStage normal_stage;
   BinStage bin_stage;
   std::vector<TileRange> pending_ranges;  ///< parts of the frame still to be rendered; the last one is next

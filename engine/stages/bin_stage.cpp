@@ -173,9 +173,12 @@ void BinStage::bin(Bins& bins, std::size_t begin, std::size_t end, int worker) c
     const std::size_t low = std::max(begin, first_element_[d]);
     const std::size_t high = std::min(end, first_element_[d + 1]);
     if (low >= high) continue;
-    draw_measurer_.run(worker, commands_->plan_draw[d], &DrawMeasurement::binning_seconds, [&] {
+    const std::size_t draw = commands_->plan_draw[d];
+    const BinCounts before = bins.counts;
+    draw_measurer_.run(worker, draw, &DrawMeasurement::binning_seconds, [&] {
       bin_draw_range(bins, {d, low - first_element_[d], high - first_element_[d]});
     });
+    draw_measurer_.count_elements(worker, draw, before, bins.counts);
   }
 }
 

@@ -20,6 +20,8 @@ class CaptureStage {
 
   bool needs_normals() const { return !capture_.normals.empty(); }
   bool any() const { return !passes_.empty(); }
+  /// Whether tiles without elements have pixels to write. Counts alone need no such tiles.
+  bool fills_spans() const { return any() && passes_.front().kind != PassKind::fragments; }
   /// Renders a tile once per pass. Distinct tiles may run concurrently, each in its own workspace.
   /// @param load_tests  load_tests() restores the tile's depth and stencil from before the frame
   /// @return  number of fragments, if they are counted

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/plan/tile_draws.h"
+#include "engine/plan/work_counts.h"
 #include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/renderer_state.h"
 #include "engine/stages/frame_context.h"
@@ -62,6 +63,7 @@ FrameStats RendererState::run(FrameRecording& recording, const ImageTarget* imag
   FrameContext frame(recording, image, {format.width, format.height, tile_size_for(format)}, options,
                      worker_pool.threads());
   draw_measurer.begin_frame(recording.draws.size(), measured_workers());
+  work_counts = {};
   plan(frame);            // draws -> effects and tile draws; buffers -> load and store operations
   reserve_planes(frame);  // the planes that will be stored, before anything changes
   run_geometry(frame);    // vertices -> window positions and varyings
@@ -124,6 +126,13 @@ void RendererState::commit_interrupted_buffers(FrameContext& frame) {
 
 FrameStats RendererState::finish(FrameContext& frame) {
   draw_measurer.finish();
+  if (options.debug.measure_draws && options.debug.count_fragments)
+    work_counts = count_work({.commands = commands,
+                              .recording = frame.recording,
+                              .target = frame.target,
+                              .draws = draw_measurer.results(),
+                              .stats = frame.stats,
+                              .presented = frame.image != nullptr});
   if (options.trace) options.trace(frame.trace.tasks());
   return frame.stats;
 }

@@ -64,7 +64,7 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
   else scan_out_cache.scan_out.emplace(target.layout, palette, image->order, isa);
   // If only the picture is needed and its background is one colour, tiles without triangles bypass tile
   // memory.
-  const bool only_picture_needed = !capture.any() && !commands.attachments.any_stores();
+  const bool only_picture_needed = !capture.fills_spans() && !commands.attachments.any_stores();
   const bool background_is_cleared = !commands.clears.empty() && !commands.attachments.color.loads();
   const bool clears_are_uniform =
       std::all_of(commands.clears.begin(), commands.clears.end(),
@@ -158,6 +158,7 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   load_tests();
   if (commands_.attachments.accumulation.used()) load_accumulation(color_place, workspace.accumulation());
   const TileCounts tile = render_(frame_, row * grid.columns() + column, workspace);
+  ++counts.rendered;
   counts.shaded_pixels += tile.shaded_pixels;
   counts.touched += tile.touched ? 1 : 0;
   if (shown) scan_out(x0, y0, workspace);

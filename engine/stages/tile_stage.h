@@ -34,6 +34,7 @@ struct StripScratch {
 };
 
 struct StripCounts {
+  std::uint64_t rendered = 0;       ///< tiles in tile memory
   std::uint64_t touched = 0;        ///< tiles
   std::uint64_t shaded_pixels = 0;  ///< colour evaluations
   std::uint64_t fragments = 0;      ///< pixels

@@ -13,6 +13,7 @@
 
 #include "executor.hpp"
 #include "frame.hpp"
+#include "prices.hpp"
 #include "types.hpp"
 
 namespace tessera {
@@ -35,10 +36,11 @@ struct FrameStats {
   std::uint64_t bin_entries = 0;         ///< sum over tiles of triangles, bitmaps and images
   std::uint64_t bin_passes = 0;          ///< binning passes; more than 1 if bin_memory was too small
   std::uint64_t tiles = 0;
-  std::uint64_t tiles_touched = 0;  ///< tiles in which a draw changed a pixel
-  int tile_size = 0;                ///< pixels
-  std::uint64_t fragments = 0;      ///< pixels covered before any test; with DebugOptions::count_fragments
-  std::uint64_t shaded_pixels = 0;  ///< colour evaluations
+  std::uint64_t tiles_rendered = 0;  ///< tiles in tile memory; the others are one colour of the image
+  std::uint64_t tiles_touched = 0;   ///< tiles in which a draw changed a pixel
+  int tile_size = 0;                 ///< pixels
+  std::uint64_t fragments = 0;       ///< pixels covered before any test; with DebugOptions::count_fragments
+  std::uint64_t shaded_pixels = 0;   ///< colour evaluations
   // Wall time per stage, seconds. tile_seconds includes scan-out and store.
   double plan_seconds = 0;
   double vertex_seconds = 0;
@@ -51,13 +53,20 @@ struct FrameStats {
 /// - Loads, clears, scan-out and stores of tiles and waiting belong to no draw.
 /// - Measurements of a draw that is skipped as a whole are 0.
 struct DrawMeasurement {
-  double vertex_seconds = 0;         ///< elements, generated normals, vertices, colours of whole triangles
-  double binning_seconds = 0;        ///< clipping and culling included
-  double tile_seconds = 0;           ///< coverage, tests and colours
+  double vertex_seconds = 0;   ///< elements, generated normals, vertices, colours of whole triangles
+  double binning_seconds = 0;  ///< clipping and culling included
+  double tile_seconds = 0;     ///< coverage, tests and colours
+  std::uint64_t vertices = 0;
   std::uint64_t vertex_batches = 0;  ///< runs of up to 64 vertices that are processed together
-  std::uint64_t tiles = 0;           ///< tiles that the draw may touch, after binning
-  std::uint64_t shaded_pixels = 0;   ///< colour evaluations; their sum is FrameStats::shaded_pixels
-  std::uint64_t fragments = 0;       ///< pixels covered before any test; with DebugOptions::count_fragments
+  // Triangles, lines and points, as in FrameStats; more than there if the frame takes several binning passes.
+  std::uint64_t triangles_in = 0;
+  std::uint64_t trivially_rejected = 0;
+  std::uint64_t culled = 0;
+  std::uint64_t clipped = 0;
+  std::uint64_t binned = 0;
+  std::uint64_t tiles = 0;          ///< tiles that the draw may touch, after binning
+  std::uint64_t shaded_pixels = 0;  ///< colour evaluations; their sum is FrameStats::shaded_pixels
+  std::uint64_t fragments = 0;      ///< pixels covered before any test; with DebugOptions::count_fragments
 };
 
 enum class LogLevel : std::uint8_t { debug, info, warning };
@@ -149,6 +158,10 @@ class TESSERA_API Renderer {
   /// - Empty without DebugOptions::measure_draws, and after a frame that was cancelled or threw.
   /// - Valid until the next finish(), and until the renderer is moved or destroyed.
   std::span<const DrawMeasurement> draw_measurements() const noexcept;
+
+  /// The work of the last frame, for predicted_seconds(). All 0 where draw_measurements() is empty, and
+  /// without DebugOptions::count_fragments.
+  const WorkCounts& work_counts() const noexcept;
 
   /// The options in effect: threads and instruction_set as chosen.
   const RendererOptions& options() const noexcept;

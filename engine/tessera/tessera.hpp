@@ -38,6 +38,7 @@
 #include "framebuffer.hpp"
 #include "mesh.hpp"
 #include "primitives.hpp"
+#include "prices.hpp"
 #include "renderer.hpp"
 #include "scene.hpp"
 #include "state.hpp"

@@ -1,5 +1,5 @@
-# bin/tessera-bench, which `tessera bench` executes. Included by CMakeLists.txt if the program is built.
-file(GLOB tessera_bench_sources CONFIGURE_DEPENDS perf/bench/*.cpp)
+# bin/tessera-bench, which `tessera bench` and `tessera price` execute. Included by CMakeLists.txt if the program is built.
+file(GLOB tessera_bench_sources CONFIGURE_DEPENDS perf/bench/*.cpp perf/prices/*.cpp)
 list(FILTER tessera_bench_sources EXCLUDE REGEX "/(main|no_mesa)\\.cpp$")
 find_path(TESSERA_OSMESA_INCLUDE GL/osmesa.h)
 mark_as_advanced(TESSERA_OSMESA_INCLUDE)
@@ -9,7 +9,8 @@ else()
   message(STATUS "GL/osmesa.h not found: tessera bench is built without --rivals")
   list(APPEND tessera_bench_sources perf/bench/no_mesa.cpp)
 endif()
-list(APPEND tessera_bench_sources perf/rivals/literal_shaders.cpp)
+list(APPEND tessera_bench_sources perf/rivals/literal_shaders.cpp
+  engine/program/cli/scene_input.cpp engine/program/cli/progress.cpp)
 add_library(tessera_bench_parts OBJECT ${tessera_bench_sources})
 # Internals that the library does not export: the worker pool and plane stores.
 tessera_add_objects(tessera_bench_internals

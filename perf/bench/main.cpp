@@ -1,4 +1,5 @@
-// tessera bench: measures the cost of frames on this machine.
+// tessera bench: measures the cost of frames on this machine. With `price` as its first argument, the program
+// is `tessera price`.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -6,6 +7,7 @@
 #include <iterator>
 #include <new>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "engine/program/cli/machine_text.h"
@@ -24,6 +26,7 @@
 #include "perf/bench/text.h"
 #include "perf/bench/traced_frame.h"
 #include "perf/bench/workload_selection.h"
+#include "perf/prices/price_main.h"
 
 namespace tessera::bench {
 using namespace detail;
@@ -315,6 +318,7 @@ int run(BenchOptions& options) {
 }  // namespace tessera::bench
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "price") return tessera::bench::price_main(argc - 1, argv + 1);
   CLI::App program("Measures the cost of frames on this machine.", "tessera bench");
   program.footer(tessera::bench::kExamples);
   tessera::bench::BenchOptions options;

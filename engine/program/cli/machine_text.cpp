@@ -1,24 +1,15 @@
 #include "engine/program/cli/machine_text.h"
 
-#include <fstream>
 #include <vector>
 
 #include <unistd.h>
 
+#include "engine/program/threads/processor_name.h"
 #include "engine/program/threads/thread_limit.h"
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera::program::cli {
 namespace {
-
-std::string cpu_name() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (const std::size_t colon = line.find(": ");
-        line.starts_with("model name") && colon != std::string::npos)
-      return line.substr(colon + 2);
-  return "unknown";
-}
 
 std::string cache(int name) {
   const long bytes = ::sysconf(name);
@@ -37,7 +28,7 @@ std::string machine_text() {
 #else
   text += "compiler           g++ " __VERSION__ "\n";
 #endif
-  text += "CPU                " + cpu_name() + "\n";
+  text += "CPU                " + processor_name() + "\n";
   text += "cores              " + std::to_string(available_cores()) + " for this process\n";
   text += "caches             L1 " + cache(_SC_LEVEL1_DCACHE_SIZE) + ", L2 " + cache(_SC_LEVEL2_CACHE_SIZE) +
           ", L3 " + cache(_SC_LEVEL3_CACHE_SIZE) + "\n";

@@ -72,8 +72,8 @@ std::string unexpected_argument(const CLI::App& program) {
   if (std::filesystem::exists(word, error))
     return message + "; did you mean \"tessera render " + word + "\"?";
   return "unknown command \"" + word + "\"" +
-         did_you_mean(
-             word, Names{"render", "explain", "info", "selftest", "bench", "formats", "completion", "man"});
+         did_you_mean(word, Names{"render", "explain", "info", "selftest", "bench", "price", "formats",
+                                  "completion", "man"});
 }
 
 int usage_error(const std::string& message, const CLI::App& program) {
@@ -128,20 +128,19 @@ struct Commands {
   CLI::App* info;
   CLI::App* selftest;
   CLI::App* bench;
+  CLI::App* price;
   CLI::App* formats;
   CLI::App* completion;
   CLI::App* man;
 };
 
-CLI::App* add_bench(CLI::App& program) {
-  CLI::App* bench =
-      program.add_subcommand("bench", "Run benchmarks on this machine; see tessera bench --help");
-  bench->set_help_flag();
-  bench->prefix_command();
-  bench->footer(
-      "Examples:\n  tessera bench fill grid-2M\n  tessera bench --json before.json\n"
-      "  tessera bench --compare before.json");
-  return bench;
+/// A command of tessera-bench, which parses its arguments.
+CLI::App* add_measurement(CLI::App& program, const char* name, const char* text, const char* examples) {
+  CLI::App* command = program.add_subcommand(name, text);
+  command->set_help_flag();
+  command->prefix_command();
+  command->footer(std::string("Examples:\n  ") + examples);
+  return command;
 }
 
 CLI::App* add_completion(CLI::App& program, std::string& shell) {
@@ -169,7 +168,13 @@ Commands add_commands(CLI::App& program, Requests& requests) {
   commands.explain = add_explain(program, requests.explain);
   commands.info = add_plain("info", "Describe this machine and what Tessera uses of it", "tessera info");
   commands.selftest = add_selftest(program, requests.selftest);
-  commands.bench = add_bench(program);
+  commands.bench =
+      add_measurement(program, "bench", "Run benchmarks on this machine; see tessera bench --help",
+                      "tessera bench fill grid-2M\n  tessera bench --json before.json\n  tessera bench "
+                      "--compare before.json");
+  commands.price =
+      add_measurement(program, "price", "Measure what effects cost on this machine; see tessera price --help",
+                      "tessera price\n  tessera price pixel vertex_spot\n  tessera price --json prices.json");
   commands.formats =
       add_plain("formats", "List the file formats of scenes, models and pictures", "tessera formats");
   commands.completion = add_completion(program, requests.shell);
@@ -205,6 +210,11 @@ int run(int argument_count, char** arguments) {
       return usage_error("TESSERA_THREADS: " + wrong, program);
   if (commands.selftest->parsed()) return selftest(requests.selftest);
   if (commands.bench->parsed()) exec_bench(commands.bench->remaining());
+  if (commands.price->parsed()) {
+    std::vector<std::string> words = commands.price->remaining();
+    words.insert(words.begin(), "price");
+    exec_bench(words);
+  }
   if (commands.render->parsed()) {
     RenderRequest& request = requests.render;
     if (!request.stats_name.empty())

@@ -45,6 +45,7 @@ std::vector<Count> counts_of(const FrameStats& s) {
           {"triangles, summed over tiles", "bin_entries", s.bin_entries},
           {"binning passes", "bin_passes", s.bin_passes},
           {"tiles", "tiles", s.tiles},
+          {"tiles rendered", "tiles_rendered", s.tiles_rendered},
           {"tiles touched", "tiles_touched", s.tiles_touched},
           {"fragments", "fragments", s.fragments},
           {"pixels shaded", "shaded_pixels", s.shaded_pixels}};
