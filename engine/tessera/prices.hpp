@@ -170,8 +170,8 @@ TESSERA_API bool is_triangle_size(PriceItem item);
 /// @param covered_pixels  of all of them together
 TESSERA_API void add_triangles(WorkCounts& counts, double triangles, double covered_pixels);
 
-/// Time of a frame with this work: the sum of units times prices. `frame` and `draw` count on one thread; the
-/// rest is divided by the threads.
+/// Time of a frame with this work: the sum of units times prices. Items without a price count as 0. `frame`
+/// and `draw` count on one thread; the rest is divided by the threads.
 /// @param threads  at least 1
 /// @throws Error  for threads out of range
 TESSERA_API double predicted_seconds(const WorkCounts& counts, const PriceList& prices, int threads);

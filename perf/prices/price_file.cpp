@@ -45,7 +45,15 @@ double number_of(const nlohmann::json& price, const char* key) {
   return number;
 }
 
+PriceItem item_of(const std::string& name) {
+  for (std::size_t i = 0; i < kPriceItems; ++i)
+    if (code(static_cast<PriceItem>(i)) == name) return static_cast<PriceItem>(i);
+  throw Error("found \"" + name + "\", expected the name of a price");
+}
+
 }  // namespace
+
+bool is_measured(const Price& price) { return price.nanoseconds != 0 || price.low != 0 || price.high != 0; }
 
 PriceList empty_price_list(InstructionSet instruction_set) {
   PriceList list;
@@ -63,6 +71,7 @@ std::string price_json(const PriceList& list) {
   for (std::size_t i = 0; i < kPriceItems; ++i) {
     const auto item = static_cast<PriceItem>(i);
     const Price& price = list[item];
+    if (!is_measured(price)) continue;
     json["prices"].push_back({{"item", code(item)},
                               {"unit", name(unit(item))},
                               {"nanoseconds", price.nanoseconds},
@@ -79,16 +88,11 @@ PriceList parse_prices(const std::string& text, const std::string& source) {
     list.processor = json.at("processor").get<std::string>();
     list.instruction_set = json.at("instruction_set").get<std::string>();
     list.version = json.at("version").get<std::string>();
-    for (std::size_t i = 0; i < kPriceItems; ++i) {
-      const auto item = static_cast<PriceItem>(i);
-      const nlohmann::json& price = json.at("prices").at(i);
-      if (price.at("item").get<std::string>() != code(item))
-        throw Error("price " + std::to_string(i) + ": found \"" + price.at("item").get<std::string>() +
-                    "\", expected \"" + std::string(code(item)) + "\"");
-      list[item] = {number_of(price, "nanoseconds"), number_of(price, "low"), number_of(price, "high")};
-    }
+    for (const nlohmann::json& price : json.at("prices"))
+      list[item_of(price.at("item").get<std::string>())] = {
+          number_of(price, "nanoseconds"), number_of(price, "low"), number_of(price, "high")};
   } catch (const std::exception& error) {
-    throw Error(source + ": is no price list: " + error.what());
+    throw Error(source + ": is no price list: " + error.what() + "; \"tessera price\" writes it again");
   }
   return list;
 }

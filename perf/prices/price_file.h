@@ -12,6 +12,10 @@ namespace tessera::bench {
 /// A list without prices for this machine and library.
 PriceList empty_price_list(InstructionSet instruction_set);
 
+/// Whether a list has this price. Lists may lack some.
+bool is_measured(const Price& price);
+
+/// The prices that were measured.
 std::string price_json(const PriceList& list);
 /// @throws Error  for text that is no price list, naming `source`
 PriceList parse_prices(const std::string& text, const std::string& source);

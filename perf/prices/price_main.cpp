@@ -53,7 +53,7 @@ void add_options(CLI::App& program, PriceOptions& options) {
   program
       .add_option("--check", options.checked,
                   "compare predicted with measured times of scenes and models at 1280x960, one thread; "
-                  "measures the prices first if none are kept")
+                  "measures missing prices first")
       ->option_text("FILE...");
 }
 
@@ -82,10 +82,9 @@ void show_progress(std::size_t measured, std::size_t pairs) {
             << std::flush;
 }
 
-/// Measures prices, shows them, and keeps the list in the cache.
-PriceList measured_list(const PriceOptions& options, InstructionSet set, bool is_silent) {
-  const std::vector<PriceItem> items = select_prices(options.names);
-  PriceList list = cached_prices(set).value_or(empty_price_list(set));
+/// Measures prices in addition to those of `list`, shows them, and keeps the list in the cache.
+PriceList measured_list(PriceList list, const std::vector<PriceItem>& items, const PriceOptions& options,
+                        InstructionSet set, bool is_silent) {
   const std::vector<PriceItem> measured = measure_prices(list, items, set, options.seconds, show_progress);
   const std::filesystem::path cached = cache_prices(list);
   if (is_silent) return list;
@@ -97,13 +96,16 @@ PriceList measured_list(const PriceOptions& options, InstructionSet set, bool is
 }
 
 void check_scenes(const PriceOptions& options, InstructionSet set) {
-  const std::optional<PriceList> cached = cached_prices(set);
-  const PriceList list = cached ? *cached : measured_list(options, set, false);
+  // Files that cannot be read are found before anything is measured.
   std::vector<NamedScene> inputs;
   for (const std::string& file : options.checked) {
     const program::cli::SceneInput input(file, {.width = kCheckedWidth, .height = kCheckedHeight});
     inputs.push_back({std::filesystem::path(file).filename().string(), input.scene()});
   }
+  PriceList list = cached_prices(set).value_or(empty_price_list(set));
+  std::vector<PriceItem> missing = select_prices({});
+  std::erase_if(missing, [&](PriceItem item) { return is_measured(list[item]); });
+  if (!missing.empty()) list = measured_list(list, missing, options, set, false);
   const std::vector<CheckedScene> scenes = check_prices(inputs, list, set);
   std::string text = checked_heading();
   for (const CheckedScene& scene : scenes) text += checked_line(scene);
@@ -124,7 +126,10 @@ int run(const PriceOptions& options) {
   }
   const bool is_silent = options.json_file == "-";
   if (!options.json_file.empty() && !is_silent) program::require_writable(options.json_file);
-  const PriceList list = measured_list(options, set, is_silent);
+  const std::vector<PriceItem> items = select_prices(options.names);
+  const PriceList known =
+      options.names.empty() ? empty_price_list(set) : cached_prices(set).value_or(empty_price_list(set));
+  const PriceList list = measured_list(known, items, options, set, is_silent);
   if (is_silent) write_to_stdout(price_json(list));
   else if (!options.json_file.empty()) program::write_file_atomically(options.json_file, price_json(list));
   return 0;

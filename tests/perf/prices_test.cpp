@@ -126,12 +126,21 @@ TEST(PriceFile, IsReadAsItWasWritten) {
   }
 }
 
+TEST(PriceFile, HasOnlyMeasuredPrices) {
+  PriceList list = empty_price_list(InstructionSet::scalar);
+  list[PriceItem::vertex] = {6, 5, 7};
+  EXPECT_THAT(price_json(list), testing::Not(HasSubstr("pixel_spot")));
+  const PriceList read = parse_prices(price_json(list), "prices.json");
+  EXPECT_TRUE(is_measured(read[PriceItem::vertex]));
+  EXPECT_FALSE(is_measured(read[PriceItem::draw]));
+}
+
 TEST(PriceFile, SaysWhatIsWrong) {
   EXPECT_THAT(error_of_parsing("{"), HasSubstr("prices.json: is no price list: "));
   EXPECT_THAT(error_of_parsing("{}"), HasSubstr("processor"));
   std::string other_item = price_json(example_list());
   other_item.replace(other_item.find("\"draw\""), 6, "\"drew\"");
-  EXPECT_THAT(error_of_parsing(other_item), HasSubstr("price 1: found \"drew\", expected \"draw\""));
+  EXPECT_THAT(error_of_parsing(other_item), HasSubstr("found \"drew\", expected the name of a price"));
 }
 
 TEST(PriceFile, LiesInTheUsersCacheFolder) {

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,16 @@ class PriceProgram : public Program {
   PriceProgram() { ::setenv("XDG_CACHE_HOME", folder_.c_str(), 1); }
   ~PriceProgram() override { ::unsetenv("XDG_CACHE_HOME"); }
   Result price(const std::string& arguments) { return run("price " + arguments); }
+  /// Adds a price of 1 ns to the kept list for each item, so that none needs to be measured.
+  void keep_all_prices() {
+    const std::filesystem::path file = std::filesystem::directory_iterator(folder_ / "tessera")->path();
+    nlohmann::json list = nlohmann::json::parse(std::ifstream(file));
+    std::istringstream items(price("--list").out);
+    for (std::string line; std::getline(items, line);)
+      list["prices"].push_back(
+          {{"item", line.substr(0, line.find(' '))}, {"nanoseconds", 1}, {"low", 1}, {"high", 1}});
+    std::ofstream(file) << list;
+  }
 };
 
 TEST_F(PriceProgram, ListsWhatHasAPrice) {
@@ -47,9 +58,10 @@ TEST_F(PriceProgram, MeasuresKeepsAndChecks) {
   const nlohmann::json list = nlohmann::json::parse(measured.out);
   EXPECT_EQ(list["prices"][0]["item"], "frame");
   EXPECT_GT(list["prices"][0]["nanoseconds"], 0);
+  EXPECT_EQ(list["prices"].size(), 4) << "frame, and three prices of shown pixels";
   EXPECT_TRUE(std::filesystem::is_directory(folder_ / "tessera"));
-  // The kept prices serve further runs.
   write("scene.json", R"({"tessera": 1, "frame": [{"clear": {"color": [1, 0, 0, 1]}}]})");
+  keep_all_prices();
   const Result checked = price("--check scene.json");
   EXPECT_EQ(checked.code, 0) << checked.err;
   EXPECT_THAT(checked.out, HasSubstr("scene.json"));
