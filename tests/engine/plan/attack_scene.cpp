@@ -72,6 +72,16 @@ Material white_material(float alpha) {
   return material;
 }
 
+AttackScene lit_scene(const std::string& name, Shading shading, MeshData mesh, const Light& light) {
+  AttackScene scene{.name = name + ", " + name_of(shading)};
+  scene.meshes = {std::move(mesh)};
+  scene.states = {DrawState{}};
+  scene.states[0].material = white_material();
+  scene.states[0].shading = shading;
+  scene.lights = {light};
+  return scene;
+}
+
 const char* name_of(Shading shading) {
   switch (shading) {
     case Shading::flat: return "flat";

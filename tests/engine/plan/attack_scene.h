@@ -52,6 +52,8 @@ Light glaring_light(float x, float y, float z, float w);
 Material white_material(float alpha = 1);
 
 const char* name_of(Shading shading);
+/// A white mesh under one light. The name of the shading is appended to `name`.
+AttackScene lit_scene(const std::string& name, Shading shading, MeshData mesh, const Light& light);
 inline constexpr Shading kShadings[] = {Shading::flat, Shading::gouraud, Shading::phong};
 
 }  // namespace tessera::test

@@ -14,16 +14,6 @@ std::string shown(double value) {
   return text;
 }
 
-AttackScene lit_scene(const std::string& name, Shading shading, MeshData mesh, const Light& light) {
-  AttackScene scene{.name = name + ", " + name_of(shading)};
-  scene.meshes = {std::move(mesh)};
-  scene.states = {DrawState{}};
-  scene.states[0].material = white_material();
-  scene.states[0].shading = shading;
-  scene.lights = {light};
-  return scene;
-}
-
 /// The normals of the grid are in the plane y = 0, at most 45 degrees from z.
 MeshData grid_bent_in_x() {
   MeshData mesh = bent_grid(1);

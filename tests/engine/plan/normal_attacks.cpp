@@ -44,16 +44,6 @@ const NormalKind kNormalKinds[] = {
     {"generated normals", [](MeshData& mesh) { mesh.normals.clear(); }},
 };
 
-AttackScene scene_with(const std::string& name, Shading shading, MeshData mesh, const Light& light) {
-  AttackScene scene{.name = name + ", " + name_of(shading)};
-  scene.meshes = {std::move(mesh)};
-  scene.states = {DrawState{}};
-  scene.states[0].material = white_material();
-  scene.states[0].shading = shading;
-  scene.lights = {light};
-  return scene;
-}
-
 void add_kinds_of_normals(AttackScenes& scenes) {
   for (const NormalKind& kind : kNormalKinds)
     for (const float z : {1.0f, -1.0f})
@@ -61,9 +51,9 @@ void add_kinds_of_normals(AttackScenes& scenes) {
         for (const Shading shading : kShadings) {
           MeshData mesh = bent_grid();
           kind.change(mesh);
-          AttackScene scene = scene_with(std::string(kind.name) + (z < 0 ? ", light behind" : "") +
-                                             (normalize ? "" : ", not normalized"),
-                                         shading, std::move(mesh), glaring_light(0.1f, 0.2f, z, 0));
+          AttackScene scene = lit_scene(std::string(kind.name) + (z < 0 ? ", light behind" : "") +
+                                            (normalize ? "" : ", not normalized"),
+                                        shading, std::move(mesh), glaring_light(0.1f, 0.2f, z, 0));
           scene.states[0].normalize = normalize;
           scene.not_claimed = EffectReason::light_behind;
           scenes.push_back(scene);
@@ -77,11 +67,11 @@ void add_back_faces(AttackScenes& scenes) {
       for (const Cull cull : {Cull::none, Cull::back, Cull::front})
         for (const FrontFace front : {FrontFace::ccw, FrontFace::cw}) {
           const Shading shading = kShadings[scenes.size() % 3];
-          AttackScene scene = scene_with(std::string("back faces") + (two_sided ? ", two-sided" : "") +
-                                             (z < 0 ? ", light behind" : "") +
-                                             (front == FrontFace::cw ? ", clockwise fronts" : "") +
-                                             ", cull " + std::to_string(static_cast<int>(cull)),
-                                         shading, bent_grid(), glaring_light(0.3f, 0, z, 0));
+          AttackScene scene = lit_scene(std::string("back faces") + (two_sided ? ", two-sided" : "") +
+                                            (z < 0 ? ", light behind" : "") +
+                                            (front == FrontFace::cw ? ", clockwise fronts" : "") + ", cull " +
+                                            std::to_string(static_cast<int>(cull)),
+                                        shading, bent_grid(), glaring_light(0.3f, 0, z, 0));
           scene.meshes.push_back(scene.meshes[0]);
           scene.states.push_back(scene.states[0]);
           scene.states[1].transform = translate(0.3, 0.2, 0.3) * rotate(170, 0, 1, 0);
@@ -100,9 +90,9 @@ void add_equal_normals(AttackScenes& scenes) {
   for (const bool local_viewer : {false, true})
     for (const SpecularModel specular : {SpecularModel::blinn, SpecularModel::phong})
       for (const Shading shading : kShadings) {
-        AttackScene scene = scene_with(std::string("equal normals") + (local_viewer ? ", local viewer" : "") +
-                                           (specular == SpecularModel::phong ? ", Phong" : ""),
-                                       shading, bent_grid(0), Light{.position = {0.3f, 0.2f, 1, 0}});
+        AttackScene scene = lit_scene(std::string("equal normals") + (local_viewer ? ", local viewer" : "") +
+                                          (specular == SpecularModel::phong ? ", Phong" : ""),
+                                      shading, bent_grid(0), Light{.position = {0.3f, 0.2f, 1, 0}});
         scene.states[0].material.specular = {0.6f, 0.7f, 0.8f, 1};
         scene.states[0].material.shininess = 30;
         scene.states[0].material.diffuse = {0.3f, 0.2f, 0.2f, 1};
