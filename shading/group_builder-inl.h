@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "shading/draw_dispatch-inl.h"
+#include "shading/hidden_triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
@@ -32,6 +33,7 @@ struct GroupBuilder {
   int prefetched_count = 0;
   std::uint32_t pending[kGroupSize];  // triangles of the mesh that are not in the group yet
   int pending_count = 0;
+  HiddenTriangles hidden;
 
   HWY_INLINE bool is_in(std::uint32_t number) const { return draw != nullptr && draw_number == number; }
   HWY_INLINE void begin_draw(std::uint32_t number) {
@@ -45,6 +47,7 @@ struct GroupBuilder {
     draw_number = number;
     draw = &next;
     draw_elements = draw_group_function(next.path);
+    hidden.begin_draw(next);
     if (context.samples > 1 && next.depth_write && may_raise_depth(next.depth_test))
       reset_hiz(context, kMaxDepthKey);
     // The part of the draw's rectangle in the tile. Pixels beyond the frame buffer's edges may be drawn; they
@@ -140,7 +143,9 @@ struct GroupBuilder {
         g.z[k][i] = g.z[k][0];
         g.rw[k][i] = g.rw[k][0];
       }
-    draw_elements(context, draw_number);
+    if (hidden.hides_group(context, *draw))
+      context.counts.hidden_triangles += static_cast<std::uint64_t>(g.count);
+    else draw_elements(context, draw_number);
     g.count = 0;
     if (context.memory.visible_triangles.size() >= kMaxVisibleTriangles) shade_whole_tile(context);
   }

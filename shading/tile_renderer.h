@@ -79,6 +79,9 @@ struct TileDraw {
   const DrawTexture* texture = nullptr;
   bool captures_normals = false;  ///< per_pixel: normals are also stored in the workspace's normals()
 
+  /// Triangles behind everything in their tile are left out before they are set up. @pre filled triangles
+  /// with one sample per pixel, a depth test `less` or `lequal`, no stencil test and no offset
+  bool skips_hidden = false;
   /// Fragment operations besides the depth test; null: none, and most of the fields below are ignored.
   const FragmentOps* ops = nullptr;
   /// Colours are computed as without `ops`. @pre `ops` has a stencil test only, and the draw has untextured
@@ -147,6 +150,7 @@ std::uint32_t pack_color_or_index(const ColorLayout& layout, const PaletteSearch
 
 struct TileCounts {
   std::uint64_t shaded_pixels = 0;
+  std::uint64_t hidden_triangles = 0;
   bool touched = false;
 };
 

@@ -126,6 +126,16 @@ void plan_shading(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferSta
              {.sampled = target.format.samples > 1, .elide = options.elide, .isa = options.isa}, notes);
 }
 
+/// Whether a triangle that fails the depth test at every pixel changes nothing, and its depths are those of
+/// its plane, so that tiles may leave it out.
+bool may_skip_hidden(const DrawPlan& plan, const FrameBufferState& target) {
+  const bool keeps_nearer = plan.depth_test == Compare::less || plan.depth_test == Compare::lequal;
+  const bool fills_triangles =
+      plan.topology == Topology::triangles && !plan.outlines && !plan.pixel_rectangle;
+  return plan.uses_depth && keeps_nearer && fills_triangles && !plan.uses_stencil && !plan.has_offset() &&
+         target.format.samples == 1;
+}
+
 /// The field that leaves a draw without pixels.
 std::string_view cause_of_empty_rect(const RecordedDraw& draw) {
   if (draw.state.scissor) return "scissor";
@@ -228,6 +238,7 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
   note_depth(plan, state, target, notes);
   plan_operations(plan, draw, target, alpha, notes);
   plan.is_noop = is_noop_by_state(plan, state);
+  plan.skips_hidden = options.elide && may_skip_hidden(plan, target);
   if (options.elide && !plan.is_noop && !draw.pixels && is_outside_view(plan, draw.mesh, options.isa)) {
     plan.is_left_out = true;
     return notes.skipped(Effect::draw, EffectReason::outside_view);

@@ -51,6 +51,7 @@ struct DrawPlan {
   bool uses_depth = false;
   bool depth_write = false;
   Compare depth_test = Compare::less;
+  bool skips_hidden = false;  ///< tiles leave out triangles behind everything that they hold
 
   // Fragment operations.
   bool has_ops = false;  ///< fragments go through `ops`, or have a depth offset

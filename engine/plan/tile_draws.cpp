@@ -83,6 +83,7 @@ TileDraw tile_draw(const GeometryDraw& geometry) {
   draw.uses_depth = plan.uses_depth;
   draw.depth_write = plan.depth_write;
   draw.depth_test = plan.depth_test;
+  draw.skips_hidden = plan.skips_hidden;
   if (plan.pixel_rectangle) draw.texels = &*plan.pixel_rectangle;
   draw.depth_key = plan.depth_key;
   draw.source = plan.source;

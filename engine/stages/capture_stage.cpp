@@ -61,6 +61,7 @@ void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const 
 
 void CaptureStage::change_output(Pass& pass, TileDraw& draw, const FrameCommands& commands,
                                  std::size_t plan) const {
+  draw.skips_hidden = false;
   if (pass.kind == PassKind::fragments) {
     draw.uses_depth = false;
     draw.ops = nullptr;

@@ -154,6 +154,7 @@ void RendererState::render_tiles(FrameContext& frame, const TileStage& stage, co
   });
   for (const WorkerCounts& counts : worker_counts) {
     frame.stats.shaded_pixels += counts.shaded_pixels;
+    frame.stats.hidden_triangles += counts.hidden_triangles;
     frame.stats.tiles_rendered += counts.rendered;
     frame.stats.tiles_touched += counts.touched;
     frame.stats.fragments += counts.fragments;

@@ -160,6 +160,7 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   const TileCounts tile = render_(frame_, row * grid.columns() + column, workspace);
   ++counts.rendered;
   counts.shaded_pixels += tile.shaded_pixels;
+  counts.hidden_triangles += tile.hidden_triangles;
   counts.touched += tile.touched ? 1 : 0;
   if (shown) scan_out(x0, y0, workspace);
   store(commands_.attachments.depth, target_.depth, depth_words, depth_place);

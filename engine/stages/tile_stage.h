@@ -34,10 +34,11 @@ struct StripScratch {
 };
 
 struct StripCounts {
-  std::uint64_t rendered = 0;       ///< tiles in tile memory
-  std::uint64_t touched = 0;        ///< tiles
-  std::uint64_t shaded_pixels = 0;  ///< colour evaluations
-  std::uint64_t fragments = 0;      ///< pixels
+  std::uint64_t rendered = 0;          ///< tiles in tile memory
+  std::uint64_t touched = 0;           ///< tiles
+  std::uint64_t shaded_pixels = 0;     ///< colour evaluations
+  std::uint64_t hidden_triangles = 0;  ///< sum over tiles of triangles that were left out as hidden
+  std::uint64_t fragments = 0;         ///< pixels
 };
 
 /// Scan-out tables, kept from frame to frame.

@@ -41,6 +41,9 @@ struct FrameStats {
   int tile_size = 0;                 ///< pixels
   std::uint64_t fragments = 0;       ///< pixels covered before any test; with DebugOptions::count_fragments
   std::uint64_t shaded_pixels = 0;   ///< colour evaluations
+  /// Bin entries of triangles behind everything in their tile, which were left out before their setup. Found
+  /// in groups: the number depends on the tile size and on bin_memory.
+  std::uint64_t hidden_triangles = 0;
   // Wall time per stage, seconds. tile_seconds includes scan-out and store.
   double plan_seconds = 0;
   double vertex_seconds = 0;

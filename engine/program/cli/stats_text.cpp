@@ -48,7 +48,8 @@ std::vector<Count> counts_of(const FrameStats& s) {
           {"tiles rendered", "tiles_rendered", s.tiles_rendered},
           {"tiles touched", "tiles_touched", s.tiles_touched},
           {"fragments", "fragments", s.fragments},
-          {"pixels shaded", "shaded_pixels", s.shaded_pixels}};
+          {"pixels shaded", "shaded_pixels", s.shaded_pixels},
+          {"triangles hidden, summed over tiles", "hidden_triangles", s.hidden_triangles}};
 }
 std::vector<std::pair<const char*, double>> stages_of(const FrameStats& s) {
   return {{"planning", s.plan_seconds},
