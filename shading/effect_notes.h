@@ -24,8 +24,9 @@ class EffectNotes {
     note.back_faces = back_faces_;
     list_->push_back(note);
   }
-  void active(Effect effect, EffectReason reason = EffectReason::requested) const {
-    add({.effect = effect, .reason = reason});
+  void active(Effect effect, EffectReason reason = EffectReason::requested,
+              std::string_view cause = {}) const {
+    add({.effect = effect, .reason = reason, .cause = cause});
   }
   void skipped(Effect effect, EffectReason reason, std::string_view cause = {}) const {
     add({.effect = effect, .active = false, .reason = reason, .cause = cause});

@@ -143,9 +143,13 @@ struct GroupBuilder {
         g.z[k][i] = g.z[k][0];
         g.rw[k][i] = g.rw[k][0];
       }
-    if (hidden.hides_group(context, *draw))
+    if (hidden.hides_group(context, *draw)) {
       context.counts.hidden_triangles += static_cast<std::uint64_t>(g.count);
-    else draw_elements(context, draw_number);
+    } else {
+      if (HWY_UNLIKELY(draw->affine))
+        for (auto& rw : g.rw) std::fill_n(rw, kGroupSize, 1.0f);
+      draw_elements(context, draw_number);
+    }
     g.count = 0;
     if (context.memory.visible_triangles.size() >= kMaxVisibleTriangles) shade_whole_tile(context);
   }

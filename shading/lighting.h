@@ -98,8 +98,9 @@ struct TrackedColors {
 struct LightingModel {
   Rgb scene_ambient{0.2f, 0.2f, 0.2f};
   bool local_viewer = false;
-  bool phong_highlight = false;  ///< (R.E)^shininess instead of (S.n)^shininess
-  bool unit_normals = false;     ///< lit normals have length 1 or 0
+  bool phong_highlight = false;   ///< (R.E)^shininess instead of (S.n)^shininess
+  bool unit_normals = false;      ///< lit normals have length 1 or 0
+  bool viewer_is_capped = false;  ///< Quality::viewer replaces a local viewer; for notes
 };
 
 /// Above this shininess highlights of unit normals are computed from the distance of two vectors: the

@@ -85,9 +85,9 @@ bool has_specular(const LightTerm& term) {
   return !is_black(term.specular) || !is_black(term.tracked_specular);
 }
 
-void note_term(const EffectNotes& notes, const LightTerm& term, int light) {
-  const auto note = [&](Effect effect, bool active, EffectReason reason) {
-    notes.add({.effect = effect, .active = active, .reason = reason, .light = light});
+void note_term(const EffectNotes& notes, const LightTerm& term, int light, const LightingModel& model) {
+  const auto note = [&](Effect effect, bool active, EffectReason reason, std::string_view cause = {}) {
+    notes.add({.effect = effect, .active = active, .reason = reason, .light = light, .cause = cause});
   };
   const bool directional = term.kind == LightKind::directional;
   note(Effect::light, true, directional ? EffectReason::directional : EffectReason::positional);
@@ -99,7 +99,9 @@ void note_term(const EffectNotes& notes, const LightTerm& term, int light) {
     note(Effect::light_spot, is_spot(term.kind),
          is_spot(term.kind) ? EffectReason::requested : EffectReason::cutoff_180);
   }
-  note(Effect::light_highlight, term.highlight != HighlightKind::none, reason_of(term.highlight));
+  const bool has_highlight = term.highlight != HighlightKind::none;
+  note(Effect::light_highlight, has_highlight, reason_of(term.highlight),
+       has_highlight && model.viewer_is_capped ? "quality.viewer" : "");
   if (has_ambient(term)) note(Effect::light_ambient, true, EffectReason::requested);
   if (!is_black(term.tracked_diffuse) || !is_black(term.tracked_specular))
     note(Effect::light_tracked_colors, true, EffectReason::requested);
@@ -212,7 +214,7 @@ void plan_term(LightingProgram& program, const EyeLight& light, int number, Ligh
   program.needs_position |= term.kind != LightKind::directional;
   program.needs_view |=
       term.highlight == HighlightKind::blinn_local || term.highlight == HighlightKind::phong_local;
-  note_term(notes, term, number);
+  note_term(notes, term, number, model);
   program.terms.push_back(term);
 }
 

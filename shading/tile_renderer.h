@@ -60,6 +60,7 @@ struct TileDraw {
   Compare depth_test = Compare::less;
 
   ColorSource source = ColorSource::constant;
+  bool affine = false;                         ///< attributes are linear in the window: 1/w counts as 1
   std::uint32_t write_mask = 0xffffffffu;      ///< bits of the packed colour that change
   std::uint32_t packed_color = 0;              ///< constant
   const std::uint32_t* packed_colors[2] = {};  ///< per_vertex_packed, per_triangle_packed; per face

@@ -9,6 +9,7 @@
 #include "engine/plan/light_facts.h"
 #include "engine/plan/vertex_facts.h"
 #include "engine/record/matrix.h"
+#include "engine/record/quality_caps.h"
 #include "shading/fragment_scalar.h"
 #include "shading/lighting_reference.h"
 
@@ -56,16 +57,23 @@ void note_unused_colors(const DrawPlan& plan, const RecordedDraw& draw, const Co
 
 void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
                  const ColorOptions& options, const EffectNotes& notes) {
-  const LightModel& model = draw.scene_state->light_model;
+  const Quality& quality = draw.scene_state->quality;
+  const LightModel& asked_model = draw.scene_state->light_model;
+  const LightModel model = capped(asked_model, quality.viewer);
   const glm::dmat4 view = to_glm(draw.scene_state->camera.view);
   plan.lights.clear();
   for (const Light& light : draw.scene_state->lights) plan.lights.push_back(eye_light(light, view));
   if (options.elide) prove_light_reach(plan, draw, options.isa);
   const TrackedColors tracked =
       draw.mesh.has_colors() ? tracked_colors(draw.state.color_material) : TrackedColors{};
-  const bool unit_normals = draw.state.normalize || draw.state.shading == Shading::phong;
-  const LightingModel lighting{rgb(model.ambient), model.local_viewer, model.specular == SpecularModel::phong,
-                               unit_normals};
+  const bool renormalizes = renormalizes_normals(draw);
+  const bool interpolates_normals = draw.state.shading == Shading::phong;
+  const LightingModel lighting{
+      .scene_ambient = rgb(model.ambient),
+      .local_viewer = model.local_viewer,
+      .phong_highlight = model.specular == SpecularModel::phong,
+      .unit_normals = renormalizes || (draw.state.normalize && !interpolates_normals),
+      .viewer_is_capped = model.local_viewer != asked_model.local_viewer};
   const auto set_program = [&](LightingProgram& program, const Material& material, int face,
                                const EffectNotes& face_notes) {
     if (plan.is_index[face]) {
@@ -77,7 +85,7 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& la
       program = plan_lighting(surface(material), tracked, plan.lights, lighting, face_notes,
                               std::move(program.terms), plan.light_reach[face]);
     }
-    program.renormalize = draw.state.shading == Shading::phong;
+    program.renormalize = renormalizes;
   };
   set_program(plan.front, draw.state.material, 0, notes);
   if (plan.two_sided) {
@@ -232,15 +240,18 @@ std::optional<DrawColor> plan_color_inputs(DrawPlan& plan, const RecordedDraw& d
 }
 
 /// Phong shading: lighting at the pixels.
-void plan_pixel_lighting(DrawPlan& plan, const ColorLayout& layout, const EffectNotes& notes) {
+void plan_pixel_lighting(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
+                         const EffectNotes& notes) {
   plan.source = ColorSource::per_pixel;
   plan.deferred = !prevents_deferral(plan, layout);
   plan_texturing(plan, false);
   notes.active(Effect::shading, plan.deferred ? EffectReason::per_pixel : EffectReason::per_fragment);
+  if (!renormalizes_normals(draw) && plan.needs_normal())
+    notes.skipped(Effect::renormalization, EffectReason::disabled);
 }
 
 /// One colour per triangle, line or point.
-void plan_flat_colors(DrawPlan& plan, const EffectNotes& notes) {
+void plan_flat_colors(DrawPlan& plan, std::string_view cause, const EffectNotes& notes) {
   // Packed colors cannot be textured: colours are kept as floats, as for fragment operations.
   if (plan.texture.use == TexturePlan::Use::texels)
     plan.has_ops = plan.float_colors = plan.textures_per_pixel = true;
@@ -255,11 +266,11 @@ void plan_flat_colors(DrawPlan& plan, const EffectNotes& notes) {
   if (plan.topology == Topology::points) rate = EffectReason::per_point;
   else if (plan.face_normals) rate = EffectReason::per_face;
   else if (by_triangle) rate = EffectReason::per_provoking_vertex;
-  notes.active(Effect::shading, rate);
+  notes.active(Effect::shading, rate, cause);
 }
 
 /// Colours of the vertices, interpolated.
-void plan_interpolated_colors(DrawPlan& plan, const ColorLayout& layout, bool sampled,
+void plan_interpolated_colors(DrawPlan& plan, const ColorLayout& layout, bool sampled, std::string_view cause,
                               const EffectNotes& notes) {
   plan.source = ColorSource::interpolated;
   const bool inside_triangles = plan.topology == Topology::triangles && !sampled;
@@ -275,7 +286,7 @@ void plan_interpolated_colors(DrawPlan& plan, const ColorLayout& layout, bool sa
   const bool shades_visible = !is_linear || is_carried || modifies_shared_color;
   plan.deferred = shades_visible && !prevents_deferral(plan, layout);
   notes.active(Effect::shading,
-               plan.deferred ? EffectReason::interpolated_per_pixel : EffectReason::interpolated);
+               plan.deferred ? EffectReason::interpolated_per_pixel : EffectReason::interpolated, cause);
 }
 
 void note_generated_normals(const DrawPlan& plan, const EffectNotes& notes) {
@@ -310,9 +321,10 @@ void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   plan.smooth_normals = generates_normals && !plan.face_normals;
   const bool phong = shading == Shading::phong && plan.lit;
   const bool one_color_each = shading == Shading::flat || plan.topology == Topology::points;
-  if (one_color_each) plan_flat_colors(plan, notes);
-  else if (phong) plan_pixel_lighting(plan, layout, notes);
-  else plan_interpolated_colors(plan, layout, options.sampled, notes);
+  const std::string_view cause = draw.shading_is_capped ? "quality.shading" : "";
+  if (one_color_each) plan_flat_colors(plan, cause, notes);
+  else if (phong) plan_pixel_lighting(plan, draw, layout, notes);
+  else plan_interpolated_colors(plan, layout, options.sampled, cause, notes);
   if (generates_normals) note_generated_normals(plan, notes);
 }
 

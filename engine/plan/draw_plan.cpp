@@ -16,9 +16,9 @@
 namespace tessera::detail {
 namespace {
 
-NormalLengths normal_lengths(const DrawState& state) {
-  if (state.normalize) return kUnitNormals;
-  return state.shading == Shading::phong ? kNormalizableNormals : kUnscaledNormals;
+NormalLengths normal_lengths(const RecordedDraw& draw) {
+  if (draw.state.normalize) return kUnitNormals;
+  return renormalizes_normals(draw) ? kNormalizableNormals : kUnscaledNormals;
 }
 
 void plan_transform(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target) {
@@ -27,8 +27,8 @@ void plan_transform(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferS
   const glm::dmat4 eye_from_object = to_glm(camera.view) * to_glm(draw.state.transform);
   const Matrix clip = from_glm(to_glm(camera.projection) * eye_from_object);
   std::copy(clip.m.begin(), clip.m.end(), plan.transform.clip_from_object);
-  plan.eye = eye_transform(eye_from_object, normal_lengths(draw.state));
-  const bool has_normalizable_normals = draw.state.normalize || draw.state.shading == Shading::phong;
+  plan.eye = eye_transform(eye_from_object, normal_lengths(draw));
+  const bool has_normalizable_normals = draw.state.normalize || renormalizes_normals(draw);
   plan.captured_eye =
       has_normalizable_normals ? plan.eye : eye_transform(eye_from_object, kNormalizableNormals);
 
@@ -73,6 +73,7 @@ void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
   const DrawState& state = draw.state;
   plan.topology = draw.mesh.topology();
   const bool has_faces = plan.topology == Topology::triangles;
+  plan.affine = draw.scene_state->quality.interpolation == InterpolationCap::affine;
   plan.point_size = state.point_size;
   plan.line_width = state.line_width;
   // Points and lines are front-facing and never culled.
@@ -250,6 +251,7 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
                  plan.textures_per_pixel ? EffectReason::one_color_per_pixel : EffectReason::folded);
   plan.varyings = varying_layout(plan, options.capture_normals);
   if (plan.varyings.texcoord >= 0) plan.texture.texture.attribute = plan.varyings.texcoord;
+  if (plan.affine && plan.varyings.count > 0) notes.active(Effect::interpolation, EffectReason::affine);
   const std::string_view cause = cause_of_no_change(plan, draw);
   if (cause.empty()) return;
   plan.is_left_out = !plan.is_noop;

@@ -45,6 +45,7 @@ struct DrawPlan {
 
   // Pixels.
   ColorSource source = ColorSource::constant;
+  bool affine = false;    ///< varyings are linear in the window
   bool deferred = false;  ///< colours are evaluated once per visible pixel
   std::uint32_t write_mask = 0xffffffffu;
   bool touches_color = true;  ///< the state lets colours change; with alpha 0, write_mask may still be 0
@@ -128,6 +129,11 @@ struct PlanOptions {
 /// @param notes  receives the effects of the draw
 void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target,
                const PlanOptions& options, const EffectNotes& notes);
+
+/// Whether lighting normalizes the normals again that it is given: those of Phong shading.
+inline bool renormalizes_normals(const RecordedDraw& draw) {
+  return draw.state.shading == Shading::phong && draw.scene_state->quality.renormalize;
+}
 
 /// Bits of stored colour words that may change; all 32 bits if all planes may.
 std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask,

@@ -39,6 +39,9 @@ std::string_view field_of(Effect effect) {
     case Effect::light_highlight: return "material.specular";
     case Effect::light_ambient: return ".ambient";
     case Effect::light_tracked_colors: return "color_material";
+    case Effect::renormalization: return "quality.renormalize";
+    case Effect::interpolation: return "quality.interpolation";
+    case Effect::texture_filter: return "quality.texture";
   }
   return "";
 }

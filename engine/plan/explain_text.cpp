@@ -46,6 +46,9 @@ constexpr EffectWords kEffects[] = {
     {Effect::light_highlight, "light_highlight", " highlight"},
     {Effect::light_ambient, "light_ambient", " ambient part"},
     {Effect::light_tracked_colors, "light_tracked_colors", " vertex colours"},
+    {Effect::renormalization, "renormalization", "renormalization of normals"},
+    {Effect::interpolation, "interpolation", "interpolation"},
+    {Effect::texture_filter, "texture_filter", "texture filter"},
 };
 
 struct ReasonWords {
@@ -118,6 +121,8 @@ constexpr ReasonWords kReasons[] = {
     {EffectReason::outside_view, "outside_view", "skipped, it is outside the view volume or the scissor"},
     {EffectReason::never_read, "never_read",
      "skipped, the buffers that it changes are replaced before anything reads them"},
+    {EffectReason::affine, "affine", "linear in the window, without perspective"},
+    {EffectReason::capped, "capped", "less accurate than asked for"},
 };
 
 struct BufferWords {
@@ -143,8 +148,8 @@ constexpr bool is_indexed_by(const Words (&words)[size], Key Words::*key) {
 static_assert(is_indexed_by(kEffects, &EffectWords::effect));
 static_assert(is_indexed_by(kReasons, &ReasonWords::reason));
 static_assert(is_indexed_by(kBufferReasons, &BufferWords::reason));
-static_assert(std::size(kEffects) == static_cast<std::size_t>(Effect::light_tracked_colors) + 1);
-static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::never_read) + 1);
+static_assert(std::size(kEffects) == static_cast<std::size_t>(Effect::texture_filter) + 1);
+static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::capped) + 1);
 
 const EffectWords& words_of(Effect effect) { return kEffects[static_cast<std::size_t>(effect)]; }
 const ReasonWords& words_of(EffectReason reason) { return kReasons[static_cast<std::size_t>(reason)]; }

@@ -21,12 +21,18 @@ bool changes_nothing(const DrawTexture& texture, const TextureNeeds& needs) {
   }
 }
 
+bool is_capped(const TextureSampler& sampler, const TextureSampler& asked) {
+  return sampler.mag != asked.mag || sampler.min != asked.min;
+}
+
 }  // namespace
 
 TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, const EffectNotes& notes) {
   TexturePlan plan;
   if (draw.texture == nullptr) return plan;
   const TextureState& state = *draw.texture;
+  const TextureCap cap = draw.scene_state->quality.texture;
+  const FilteredTexture& filtered = state.under(cap);
   DrawTexture& texture = plan.texture;
   texture.function = draw.state.texture_env;
   texture.has_alpha = state.has_alpha();
@@ -37,19 +43,21 @@ TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, co
     return plan;
   }
   if (state.one_color || !draw.mesh.texcoords) {
-    texture.texel = state.one_color ? *state.one_color : state.at_origin;
+    texture.texel = state.one_color ? *state.one_color : filtered.at_origin;
     if (!state.one_color) notes.skipped(Effect::texture_coordinates, EffectReason::not_in_mesh);
     if (changes_nothing(texture, needs)) notes.skipped(Effect::texture, EffectReason::no_effect);
     else plan.use = TexturePlan::Use::one_color;
     return plan;
   }
   plan.use = TexturePlan::Use::texels;
-  texture.levels = &state.levels;
+  texture.levels = &filtered.levels;
   notes.add({.effect = Effect::texture,
-             .width = state.levels.level[0].width,
-             .height = state.levels.level[0].height,
+             .width = filtered.levels.level[0].width,
+             .height = filtered.levels.level[0].height,
              .channels = state.channels});
-  if (state.levels.needs_footprint()) notes.active(Effect::texture_lod);
+  if (filtered.levels.needs_footprint()) notes.active(Effect::texture_lod);
+  if (is_capped(filtered.sampler, state.under(TextureCap::as_asked).sampler))
+    notes.active(Effect::texture_filter, EffectReason::capped);
   return plan;
 }
 

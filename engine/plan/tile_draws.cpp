@@ -87,6 +87,7 @@ TileDraw tile_draw(const GeometryDraw& geometry) {
   if (plan.pixel_rectangle) draw.texels = &*plan.pixel_rectangle;
   draw.depth_key = plan.depth_key;
   draw.source = plan.source;
+  draw.affine = plan.affine;
   draw.write_mask = plan.write_mask;
   draw.deferred = plan.deferred;
   draw.scaled_colors = plan.scaled_colors;

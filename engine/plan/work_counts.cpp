@@ -225,7 +225,8 @@ class DrawCounter {
       if (plan_.two_sided) counts_[PriceItem::pixel_second_side] += points;
     }
     const bool samples_texels = plan_.textures_per_pixel && plan_.texture.use == TexturePlan::Use::texels;
-    if (samples_texels) counts_[texture_item(draw_.texture->sampler.min)] += points;
+    if (samples_texels)
+      counts_[texture_item(draw_.texture->under(draw_.scene_state->quality.texture).sampler.min)] += points;
     const bool varies = is_interpolated || plan_.source == ColorSource::per_pixel || samples_texels;
     if (plan_.uses_palette() && frame_.target.layout.index && varies) count_palette_search();
   }

@@ -8,6 +8,7 @@
 #include "engine/plan/draw_plan.h"
 #include "engine/record/checks.h"
 #include "engine/record/planar_shadow.h"
+#include "engine/record/quality_caps.h"
 #include "engine/record/recording.h"
 #include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/out_of_memory.h"
@@ -143,6 +144,16 @@ void Frame::set_light_model(const LightModel& model) {
   change(*recording_, "Frame::set_light_model", [&](SceneState& changed) { changed.light_model = model; });
 }
 
+void Frame::set_quality(const Quality& quality) {
+  const FloatingPointMode mode;
+  require_enum({"Frame::set_quality: shading"}, quality.shading, ShadingCap::flat);
+  require_enum({"Frame::set_quality: viewer"}, quality.viewer, ViewerCap::infinite);
+  require_enum({"Frame::set_quality: interpolation"}, quality.interpolation, InterpolationCap::affine);
+  require_enum({"Frame::set_quality: texture"}, quality.texture, TextureCap::nearest);
+  require_range({"Frame::set_quality: light_threshold"}, quality.light_threshold, 0, 1);
+  change(*recording_, "Frame::set_quality", [&](SceneState& changed) { changed.quality = quality; });
+}
+
 void Frame::clear(const Clear& clear) {
   const FloatingPointMode mode;
   const FrameBufferState& target = *recording_->target;
@@ -215,6 +226,8 @@ void Frame::draw(const Mesh& mesh, const DrawState& state) {
     check_shape(state, *recording_->target);
     check_fragment_state("Frame::draw", state, *recording_->target);
     draw.texture = check_texture(state, state.texture != nullptr ? state.texture->state_.get() : nullptr);
+    draw.state.shading = capped(state.shading, draw.scene_state->quality.shading);
+    draw.shading_is_capped = draw.state.shading != state.shading;
     if (state.shadow_on) apply_planar_shadow(draw);
     check_indices(draw.mesh, recording_->workers);
     recording_->draws.push_back(std::move(draw));

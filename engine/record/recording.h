@@ -17,11 +17,12 @@ namespace tessera::detail {
 
 class WorkerPool;
 
-/// Camera, lights and light model of one or more draws.
+/// Camera, lights, light model and quality of one or more draws.
 struct SceneState {
   Camera camera;
   std::vector<Light> lights{Light{}};
   LightModel light_model;
+  Quality quality;
 };
 
 /// A bitmap or an image.
@@ -33,7 +34,8 @@ struct RecordedPixels {
 
 struct RecordedDraw {
   MeshArrays mesh;
-  DrawState state;
+  DrawState state;                          ///< with shading as capped
+  bool shading_is_capped = false;           ///< the draw asked for a more accurate one than state.shading
   const SceneState* scene_state = nullptr;  ///< shared by the draws between two changes
   const TextureState* texture = nullptr;    ///< state of DrawState::texture; stays when the Texture is moved
   std::optional<RecordedPixels> pixels{};   ///< in place of the mesh, which is then empty
@@ -69,7 +71,7 @@ struct FrameRecording {
     scene_states_[last_scene_state_ + 1] = scene_states_[last_scene_state_];
     return scene_states_[++last_scene_state_];
   }
-  /// Forgets the commands. Camera, lights, light model and memory stay.
+  /// Forgets the commands. Camera, lights, light model, quality and memory stay.
   void clear() noexcept {
     draws.clear();
     clears.clear();

@@ -5,6 +5,7 @@
 
 #include "engine/record/checks.h"
 #include "engine/record/mipmaps.h"
+#include "engine/record/quality_caps.h"
 #include "engine/record/texture_state.h"
 #include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/out_of_memory.h"
@@ -127,7 +128,7 @@ std::array<float, 4> color_of(std::uint32_t word) {
 }
 
 bool is_one_color(const TextureState& texture) {
-  const TextureLevel& level = texture.levels.level[0];
+  const TextureLevel& level = texture.filtered[0].levels.level[0];
   for (std::int32_t y = 0; y < level.height; ++y) {
     const std::uint32_t* const row = texture.texels.data() + std::ptrdiff_t{y} * level.stride;
     if (!std::all_of(row, row + level.width, [&](std::uint32_t word) { return word == texture.texels[0]; }))
@@ -137,7 +138,7 @@ bool is_one_color(const TextureState& texture) {
 }
 
 bool is_opaque(const TextureState& texture) {
-  const TextureLevel& level = texture.levels.level[0];
+  const TextureLevel& level = texture.filtered[0].levels.level[0];
   for (std::int32_t y = 0; y < level.height; ++y) {
     const std::uint32_t* const row = texture.texels.data() + std::ptrdiff_t{y} * level.stride;
     if (!std::all_of(row, row + level.width, [](std::uint32_t word) { return word >> 24 == 255; }))
@@ -148,17 +149,14 @@ bool is_opaque(const TextureState& texture) {
 
 /// Sample at s = t = 0 under magnification. A linear filter yields the mean of the four texels around the
 /// corner of the image, as in the kernel.
-std::array<float, 4> color_at_origin(const TextureState& texture) {
-  const TextureLevels& levels = texture.levels;
+std::array<float, 4> color_at_origin(const TextureLevels& levels) {
   const TextureLevel& level = levels.level[0];
-  if (!levels.mag_linear) return color_of(texture.texels[0]);
+  if (!levels.mag_linear) return color_of(levels.words[0]);
   const std::ptrdiff_t left = levels.wrap_s == TextureWrap::repeat ? level.width - 1 : 0;
   const std::ptrdiff_t below = levels.wrap_t == TextureWrap::repeat ? level.height - 1 : 0;
   std::array<float, 4> color;
   for (std::size_t c = 0; c < 4; ++c) {
-    const auto component = [&](std::ptrdiff_t at) {
-      return texture.texels[static_cast<std::size_t>(at)] >> kTexelShift[c] & 0xff;
-    };
+    const auto component = [&](std::ptrdiff_t at) { return levels.words[at] >> kTexelShift[c] & 0xff; };
     const std::ptrdiff_t row = below * level.stride;
     color[c] =
         static_cast<float>((component(0) + component(left) + component(row) + component(row + left)) << 6) /
@@ -169,8 +167,7 @@ std::array<float, 4> color_at_origin(const TextureState& texture) {
 
 std::unique_ptr<TextureState> make_texture(const TextureImage& image, const TextureSampler& sampler) {
   auto texture = std::make_unique<TextureState>();
-  TextureLevels& levels = texture->levels;
-  texture->sampler = sampler;
+  TextureLevels& levels = texture->filtered[0].levels;
   texture->channels = image.channels;
   set_filters(levels, sampler);
   levels.gathers_pairs = machine_has_fast_gather();
@@ -182,7 +179,14 @@ std::unique_ptr<TextureState> make_texture(const TextureImage& image, const Text
   for (int i = 0; i <= levels.last; ++i) pad_level(words, levels.level[i], levels);
   if (is_one_color(*texture)) texture->one_color = color_of(words[0]);
   if (texture->has_alpha()) texture->is_opaque = is_opaque(*texture);
-  texture->at_origin = color_at_origin(*texture);
+  for (const TextureCap cap : {TextureCap::as_asked, TextureCap::bilinear, TextureCap::nearest}) {
+    FilteredTexture& filtered = texture->filtered[static_cast<std::size_t>(cap)];
+    filtered.sampler = capped(sampler, cap);
+    filtered.levels = levels;
+    set_filters(filtered.levels, filtered.sampler);
+    if (!has_mipmaps(filtered.sampler)) filtered.levels.last = 0;
+    filtered.at_origin = color_at_origin(filtered.levels);
+  }
   return texture;
 }
 
@@ -197,9 +201,11 @@ Texture::~Texture() = default;
 Texture::Texture(Texture&&) noexcept = default;
 Texture& Texture::operator=(Texture&&) noexcept = default;
 
-int Texture::width() const noexcept { return state_->levels.level[0].width; }
-int Texture::height() const noexcept { return state_->levels.level[0].height; }
+int Texture::width() const noexcept { return state_->under(TextureCap::as_asked).levels.level[0].width; }
+int Texture::height() const noexcept { return state_->under(TextureCap::as_asked).levels.level[0].height; }
 int Texture::channels() const noexcept { return state_->channels; }
-const TextureSampler& Texture::sampler() const noexcept { return state_->sampler; }
+const TextureSampler& Texture::sampler() const noexcept {
+  return state_->under(TextureCap::as_asked).sampler;
+}
 
 }  // namespace tessera

@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "framebuffer.hpp"
 #include "mesh.hpp"
+#include "quality.hpp"
 #include "scene.hpp"
 #include "state.hpp"
 #include "types.hpp"
@@ -79,7 +80,8 @@ class TESSERA_API Frame {
   Frame(Frame&&) noexcept;
   Frame& operator=(Frame&&) noexcept;
 
-  // State of the draws that follow. Initially: identity matrices, one default Light, a default LightModel.
+  // State of the draws that follow. Initially: identity matrices, one default Light, a default LightModel, no
+  // caps.
   // These functions throw Error for values that are out of range or not finite, or if memory runs out.
 
   void set_camera(const Camera& camera);
@@ -88,6 +90,7 @@ class TESSERA_API Frame {
     set_lights(std::span<const Light>(lights.begin(), lights.size()));
   }
   void set_light_model(const LightModel& model);
+  void set_quality(const Quality& quality);
 
   /// @throws Error  for values out of range, and for buffers that the frame buffer lacks
   void clear(const Clear& clear);
@@ -126,7 +129,7 @@ class TESSERA_API Frame {
   /// @throws Error  if the frame loads a buffer that the frame before did not keep
   std::vector<BufferNote> buffers(bool presented = true) const;
 
-  /// Forgets all commands, captures and keep(). Camera, lights and light model stay.
+  /// Forgets all commands, captures and keep(). Camera, lights, light model and quality stay.
   void reset() noexcept;
 
  private:

@@ -39,6 +39,7 @@
 #include "mesh.hpp"
 #include "prices.hpp"
 #include "primitives.hpp"
+#include "quality.hpp"
 #include "renderer.hpp"
 #include "scene.hpp"
 #include "state.hpp"

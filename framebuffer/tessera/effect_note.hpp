@@ -8,38 +8,41 @@ namespace tessera {
 
 /// An effect that a draw may consist of. New enumerators are appended.
 enum class Effect : std::uint8_t {
-  draw,                 ///< the draw as a whole
-  planar_shadow,        ///< DrawState::shadow_on
-  depth_test,           ///< DepthState::test
-  depth_write,          ///< DepthState::write
-  plane_masks,          ///< DrawState::color_mask and plane_mask
-  alpha_test,           ///< DrawState::alpha_test
-  stencil_test,         ///< DrawState::stencil
-  blending,             ///< DrawState::blend
-  dither,               ///< FrameBufferFormat::dither
-  logic_op,             ///< DrawState::logic_op
-  alpha_planes,         ///< FrameBufferFormat::alpha_bits
-  polygon_offset,       ///< DrawState::polygon_offset
-  polygon_mode,         ///< DrawState::front_mode and back_mode
-  multisampling,        ///< FrameBufferFormat::samples
-  bitmap,               ///< Frame::draw_bitmap
-  image,                ///< Frame::draw_image
-  texture,              ///< DrawState::texture
-  texture_coordinates,  ///< Mesh::texcoords
-  texture_lod,          ///< level of detail of the texture
-  lighting,             ///< DrawState::lighting
-  two_sided_lighting,   ///< LightModel::two_sided
-  index_lighting,       ///< Material::index_ramp
-  vertex_colors,        ///< Mesh::colors
-  color_indices,        ///< Mesh::color_indices
-  generated_normals,    ///< normals of a mesh that has none
-  shading,              ///< where and how often colours are evaluated
-  light,                ///< one light on one material
-  light_attenuation,    ///< attenuation of a light over distance
-  light_spot,           ///< cone of a light
-  light_highlight,      ///< specular highlight of a light
-  light_ambient,        ///< ambient part of a light, where it differs between points
-  light_tracked_colors  ///< vertex colours in place of the material's diffuse or specular colour
+  draw,                  ///< the draw as a whole
+  planar_shadow,         ///< DrawState::shadow_on
+  depth_test,            ///< DepthState::test
+  depth_write,           ///< DepthState::write
+  plane_masks,           ///< DrawState::color_mask and plane_mask
+  alpha_test,            ///< DrawState::alpha_test
+  stencil_test,          ///< DrawState::stencil
+  blending,              ///< DrawState::blend
+  dither,                ///< FrameBufferFormat::dither
+  logic_op,              ///< DrawState::logic_op
+  alpha_planes,          ///< FrameBufferFormat::alpha_bits
+  polygon_offset,        ///< DrawState::polygon_offset
+  polygon_mode,          ///< DrawState::front_mode and back_mode
+  multisampling,         ///< FrameBufferFormat::samples
+  bitmap,                ///< Frame::draw_bitmap
+  image,                 ///< Frame::draw_image
+  texture,               ///< DrawState::texture
+  texture_coordinates,   ///< Mesh::texcoords
+  texture_lod,           ///< level of detail of the texture
+  lighting,              ///< DrawState::lighting
+  two_sided_lighting,    ///< LightModel::two_sided
+  index_lighting,        ///< Material::index_ramp
+  vertex_colors,         ///< Mesh::colors
+  color_indices,         ///< Mesh::color_indices
+  generated_normals,     ///< normals of a mesh that has none
+  shading,               ///< where and how often colours are evaluated
+  light,                 ///< one light on one material
+  light_attenuation,     ///< attenuation of a light over distance
+  light_spot,            ///< cone of a light
+  light_highlight,       ///< specular highlight of a light
+  light_ambient,         ///< ambient part of a light, where it differs between points
+  light_tracked_colors,  ///< vertex colours in place of the material's diffuse or specular colour
+  renormalization,       ///< Quality::renormalize
+  interpolation,         ///< Quality::interpolation
+  texture_filter         ///< Quality::texture
 };
 
 /// Why an effect runs or is skipped, or which variant of it runs. New enumerators are appended.
@@ -97,7 +100,9 @@ enum class EffectReason : std::uint8_t {
   equal_normals,              ///< all normals are equal, lights directional, the viewer infinite
   equal_colors,               ///< all vertex colours are equal
   outside_view,               ///< all vertices are outside one side of the view volume or the scissor
-  never_read                  ///< the buffers that it changes are replaced before anything reads them
+  never_read,                 ///< the buffers that it changes are replaced before anything reads them
+  affine,                     ///< linear in the window
+  capped                      ///< replaced by a less accurate variant
 };
 
 /// One effect of a draw. Frame::effects returns them, Frame::explain their text.

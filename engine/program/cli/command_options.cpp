@@ -7,6 +7,7 @@
 
 #include "engine/program/cli/parse_overrides.h"
 #include "engine/program/cli/validators.h"
+#include "engine/program/scene/quality_names.h"
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera::program::cli {
@@ -93,6 +94,20 @@ void add_scene_overrides(CLI::App& command, SceneOverrides& overrides) {
       command, "--shading", overrides.shading,
       {{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}},
       "shading of every draw");
+  command
+      .add_option_function<std::string>(
+          "--quality",
+          [&overrides](const std::string& text) {
+            try {
+              overrides.quality = parse_quality(text);
+            } catch (const Error& error) {
+              throw CLI::ValidationError("--quality", error.what());
+            }
+          },
+          "caps on what draws ask for, in place of the scene's: shading (as_asked, phong_2x2, phong_4x4, "
+          "gouraud, flat), renormalize (on, off), viewer (as_asked, infinite), interpolation (perspective, "
+          "affine), texture (as_asked, bilinear, nearest), light_threshold (0 to 1)")
+      ->option_text("KEY=VALUE,...");
   command.add_option("--color-bits", overrides.color_bits, "colour planes: 1 .. 24")
       ->option_text("N")
       ->transform(integer_from(1, 24));

@@ -248,12 +248,12 @@ Accum read_accum(const Value& value, const FrameBufferFormat& format) {
 
 Command read_command(const Value& value, const Names& names, const std::string& base_folder,
                      FileCache& cache) {
-  static constexpr std::array<std::string_view, 7> kCommands{"clear",  "draw",   "bitmap", "image",
-                                                             "camera", "lights", "accum"};
+  static constexpr std::array<std::string_view, 8> kCommands{"clear",  "draw",   "bitmap",  "image",
+                                                             "camera", "lights", "quality", "accum"};
   if (!value.json().is_object()) value.fail("an object with one of " + json::quoted_list(kCommands));
   if (value.json().contains("draw")) return read_draw(value, names);
   if (value.json().empty()) value.fail("one of " + json::quoted_list(kCommands));
-  const Object object(value, {"clear", "draw", "bitmap", "image", "camera", "lights", "accum"});
+  const Object object(value, {"clear", "draw", "bitmap", "image", "camera", "lights", "quality", "accum"});
   if (value.json().size() != 1)
     value.refuse("found several commands in one object, expected one of " + json::quoted_list(kCommands));
   if (const auto clear = object.find("clear")) return read_clear(*clear, names.scene.framebuffer);
@@ -261,6 +261,7 @@ Command read_command(const Value& value, const Names& names, const std::string& 
   if (const auto image = object.find("image")) return read_image(*image, names.scene, base_folder, cache);
   if (const auto accum = object.find("accum")) return read_accum(*accum, names.scene.framebuffer);
   if (const auto camera = object.find("camera")) return read_camera(*camera);
+  if (const auto quality = object.find("quality")) return read_quality(*quality);
   return read_lights(object.require("lights"));
 }
 

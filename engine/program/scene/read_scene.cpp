@@ -182,7 +182,7 @@ namespace {
 Scene read_scene(const Json& json, const std::string& name, const std::string& base_folder,
                  FileCache& models) {
   const Object top(Value(json, "", name), {"tessera", "title", "framebuffer", "camera", "light_model",
-                                           "lights", "materials", "textures", "meshes", "frame"});
+                                           "lights", "quality", "materials", "textures", "meshes", "frame"});
   const Value version = top.require("tessera");
   if (version.json() != Json(1)) version.fail("1, the version of the scene format");
 
@@ -193,6 +193,7 @@ Scene read_scene(const Json& json, const std::string& name, const std::string& b
   scene.camera = camera ? read_camera(*camera) : default_camera();
   if (const auto model = top.find("light_model")) scene.light_model = read_light_model(*model);
   if (const auto lights = top.find("lights")) scene.lights = read_lights(*lights);
+  if (const auto quality = top.find("quality")) scene.quality = read_quality(*quality);
   const auto materials = top.find("materials");
   const Materials named = materials ? read_materials(*materials) : Materials{};
   const auto textures = top.find("textures");

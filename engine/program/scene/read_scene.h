@@ -18,6 +18,7 @@ SceneCamera read_camera(const json::Value& value);
 SceneCamera default_camera();
 
 LightList read_lights(const json::Value& value);
+Quality read_quality(const json::Value& value);
 
 /// Contents of files, so that an animation reads each file once.
 struct FileCache {

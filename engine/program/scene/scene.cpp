@@ -67,7 +67,7 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
                 " entries, must be at most " + std::to_string(1 << format.color_bits) + " for " +
                 std::to_string(format.color_bits) + " color bits");
 
-  // Overridden cameras and lights hold for the whole frame.
+  // Overridden cameras, lights and caps hold for the whole frame.
   if (overrides.camera) {
     const auto override_camera = [&](SceneCamera& camera) {
       const bool reversed = camera.reversed;  // the scene's depth clears and tests rely on it
@@ -84,6 +84,11 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
       return std::holds_alternative<LightList>(command.value);
     });
   }
+  if (overrides.quality) {
+    scene.quality = *overrides.quality;
+    std::erase_if(scene.frame,
+                  [](const SceneCommand& command) { return std::holds_alternative<Quality>(command.value); });
+  }
   if (overrides.shading)
     for (SceneCommand& command : scene.frame)
       if (auto* draw = std::get_if<DrawCommand>(&command.value)) draw->state.shading = *overrides.shading;
@@ -94,6 +99,7 @@ void record(const Scene& scene, Frame& frame) {
   frame.set_light_model(scene.light_model);
   frame.set_camera(scene.camera.at_aspect(aspect));
   frame.set_lights(scene.lights);
+  frame.set_quality(scene.quality);
   for (const SceneCommand& command : scene.frame)
     at_command(scene, command, [&] {
       std::visit(
@@ -103,7 +109,8 @@ void record(const Scene& scene, Frame& frame) {
                      [&](const ImageCommand& image) { frame.draw_image(image.view(), image.state); },
                      [&](const Accum& accum) { frame.accumulate(accum); },
                      [&](const SceneCamera& camera) { frame.set_camera(camera.at_aspect(aspect)); },
-                     [&](const LightList& lights) { frame.set_lights(lights); }},
+                     [&](const LightList& lights) { frame.set_lights(lights); },
+                     [&](const Quality& quality) { frame.set_quality(quality); }},
           command.value);
     });
 }

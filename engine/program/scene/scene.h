@@ -54,7 +54,8 @@ struct ImageCommand {
   PixelImage view() const;
 };
 using LightList = std::vector<Light>;
-using Command = std::variant<Clear, DrawCommand, BitmapCommand, ImageCommand, Accum, SceneCamera, LightList>;
+using Command =
+    std::variant<Clear, DrawCommand, BitmapCommand, ImageCommand, Accum, SceneCamera, LightList, Quality>;
 
 struct SceneCommand {
   Command value;
@@ -69,6 +70,7 @@ struct Scene {
   SceneCamera camera;
   LightModel light_model;
   LightList lights{Light{}};
+  Quality quality;
   std::vector<MeshData> meshes;                          ///< in the order of the file
   std::vector<std::shared_ptr<const Texture>> textures;  ///< in the order of the file; draws point to them
   std::vector<SceneCommand> frame;
@@ -111,6 +113,7 @@ struct SceneOverrides {
   std::optional<std::string> palette = {};  ///< name; makes the colour buffer a colour-index buffer
   std::optional<SceneCamera> camera = {};   ///< for the whole frame; keeps the scene's `reversed`
   LightList lights = {};                    ///< for the whole frame
+  std::optional<Quality> quality = {};      ///< for the whole frame
 };
 /// @throws Error for values out of range and for a palette that does not fit into the colour bits
 void apply(const SceneOverrides& overrides, Scene& scene);

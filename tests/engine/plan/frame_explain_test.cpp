@@ -151,7 +151,7 @@ TEST(Explain, LitDrawsUseVertexColorsOnlyThroughColorMaterial) {
   s.colors = true;
   EXPECT_THAT(effects(s), skips(Effect::vertex_colors, EffectReason::color_material_none));
   s.state.color_material = ColorMaterial::diffuse;
-  EXPECT_THAT(effects(s), runs(Effect::light_tracked_colors));
+  EXPECT_THAT(effects(s), runs(Effect::texture_filter));
   s.colors = false;
   EXPECT_THAT(effects(s), Not(mentions(Effect::light_tracked_colors))) << "the mesh has none";
 }
@@ -332,8 +332,7 @@ TEST(Explain, CodesAreDistinctKebabCase) {
   for (int i = 0; i <= static_cast<int>(Effect::light_tracked_colors); ++i)
     check(code(static_cast<Effect>(i)));
   codes.clear();
-  for (int i = 0; i <= static_cast<int>(EffectReason::equal_colors); ++i)
-    check(code(static_cast<EffectReason>(i)));
+  for (int i = 0; i <= static_cast<int>(EffectReason::capped); ++i) check(code(static_cast<EffectReason>(i)));
   EXPECT_EQ(code(Effect::depth_test), "depth_test");
   EXPECT_EQ(code(EffectReason::no_depth_buffer), "no_depth_buffer");
   EXPECT_EQ(code(static_cast<Effect>(255)), "");

@@ -21,6 +21,7 @@ json scene_parts() {
     "framebuffer": {"width": 16, "height": 16},
     "lights": [{"position": [0, 0, 1, 0]}],
     "light_model": {},
+    "quality": {},
     "material": {},
     "textures": {"white": {"channels": 3, "rows": ["ffffff"]},
                  "grey": {"channels": 3, "rows": ["808080"]},
@@ -35,7 +36,8 @@ json scene_parts() {
 
 std::string scene_file(const json& parts) {
   json scene{{"tessera", 1}};
-  for (const char* name : {"framebuffer", "lights", "light_model", "textures"}) scene[name] = parts[name];
+  for (const char* name : {"framebuffer", "lights", "light_model", "quality", "textures"})
+    scene[name] = parts[name];
   scene["materials"]["m"] = parts["material"];
   scene["meshes"]["square"] = parts["mesh"];
   scene["frame"] = json::array();
@@ -50,7 +52,7 @@ json::json_pointer place_of_cause(const std::string& cause) {
   if (cause == "clear") return json::json_pointer("/last_clear");
   if (cause == "bitmap" || cause == "image") return json::json_pointer("/command");
   std::string place = in_scene_file(cause);
-  for (const char* part : {"framebuffer", "light_model", "lights", "material", "mesh"})
+  for (const char* part : {"framebuffer", "light_model", "lights", "quality", "material", "mesh"})
     if (place == part || place.starts_with(std::string(part) + '.') ||
         place.starts_with(std::string(part) + '[')) {
       std::erase(place, ']');
@@ -211,6 +213,19 @@ std::vector<ReasonCase> reason_cases() {
        "mesh.positions", "[[0.5, -1, 0], [3, -1, 0], [3, 1, 0], [2, 1, 0]]"},
       {never_read, "draw", R"({"command": {"depth": false}, "last_clear": {"color": [0, 0, 1, 1]}})", "clear",
        "null"},
+      {affine, "interpolation", R"({"quality": {"interpolation": "affine"}})", "quality.interpolation",
+       R"("perspective")"},
+      {capped, "texture_filter", R"({"command": {"texture": "checker"}, "quality": {"texture": "bilinear"}})",
+       "quality.texture", R"("as_asked")"},
+      {disabled, "renormalization", R"({"command": {"shading": "phong"}, "quality": {"renormalize": false}})",
+       "quality.renormalize", "true"},
+      {interpolated, "shading", R"({"command": {"shading": "phong"}, "quality": {"shading": "gouraud"}})",
+       "quality.shading", R"("as_asked")"},
+      {per_vertex, "shading", R"({"quality": {"shading": "flat"}})", "quality.shading", R"("as_asked")"},
+      {blinn_infinite_viewer, "light_highlight",
+       R"({"material": {"specular": [1, 1, 1, 1]}, "light_model": {"local_viewer": true},
+           "quality": {"viewer": "infinite"}})",
+       "quality.viewer", R"("as_asked")"},
   };
 }
 

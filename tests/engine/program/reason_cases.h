@@ -12,7 +12,8 @@
 namespace tessera::test {
 
 /// A scene with one draw of a square. Its parts have short names: "framebuffer", "lights", "light_model",
-/// "material", "textures", "mesh", "clear" (may be null), "command", the draw, and "last_clear" after it.
+/// "quality", "material", "textures", "mesh", "clear" (may be null), "command", the draw, and "last_clear"
+/// after it.
 nlohmann::json scene_parts();
 /// The scene file.
 std::string scene_file(const nlohmann::json& parts);
