@@ -1,6 +1,6 @@
 # The program: scene files, models, image files and the command line.
-#   tessera_scene    static library: scenes, import, built-in meshes, image files. Its users also link tessera
-#                    or tessera's objects.
+#   tessera_scene    static library: scenes, import, built-in meshes, image files, comparison of pictures. Its
+#                    users also link tessera or tessera's objects.
 #   tessera_imageio  module that contains OpenImageIO; loaded at run time
 #   tessera_import   module that contains assimp; loaded by the child process that reads a model
 #   tessera_cli      the program bin/tessera
@@ -23,8 +23,8 @@ add_custom_command(OUTPUT ${tessera_embedded}
   COMMENT "Embedding the teapot and the built-in scene" VERBATIM)
 
 file(GLOB tessera_scene_sources CONFIGURE_DEPENDS
-  ${program_dir}/scene/*.cpp ${program_dir}/import/*.cpp
-  ${program_dir}/imageio/*.cpp ${program_dir}/threads/*.cpp)
+  ${program_dir}/scene/*.cpp ${program_dir}/import/*.cpp ${program_dir}/imageio/*.cpp
+  ${program_dir}/compare/*.cpp ${program_dir}/threads/*.cpp)
 set(tessera_imageio_sources ${program_dir}/imageio/module.cpp ${program_dir}/imageio/indexed_png.cpp)
 set(tessera_import_sources
   import_module.cpp assimp_material.cpp assimp_model.cpp assimp_view.cpp gltf_view.cpp)
