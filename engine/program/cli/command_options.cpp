@@ -28,6 +28,11 @@ constexpr const char* kExplainExamples = R"(Examples:
   tessera explain scene.json --measure --threads 1
   tessera explain truck.glb --json > effects.json)";
 
+constexpr const char* kCompareExamples = R"(Examples:
+  tessera compare before.png after.png
+  tessera compare before.png after.png --map errors.png
+  tessera compare before.png after.png --ppd 20 --json)";
+
 constexpr const char* kSelftestExamples = R"(Examples:
   tessera selftest
   tessera selftest --hashes > here.txt            on one machine
@@ -250,6 +255,37 @@ CLI::App* add_explain(CLI::App& program, ExplainRequest& request) {
       ->option_text("N")
       ->transform(integer_from(1, 1024))
       ->needs(measure);
+  return command;
+}
+
+CLI::App* add_compare(CLI::App& program, CompareRequest& request) {
+  CLI::App* command = program.add_subcommand(
+      "compare",
+      "Compare two pictures: largest error, RMS, PSNR, shares of wrong pixels, and FLIP, which predicts how "
+      "visible the differences are");
+  command->footer(kCompareExamples);
+  command->option_defaults()->take_last();
+  for (std::size_t i = 0; i < request.pictures.size(); ++i)
+    command->add_option(i == 0 ? "A" : "B", request.pictures[i], "picture of the same size as the other")
+        ->option_text("FILE")
+        ->required()
+        ->check(not_empty("a picture's name"));
+  command
+      ->add_option("--ppd", request.pixels_per_degree,
+                   "pixels per degree of the viewer's visual angle, 1 .. 1000, for FLIP; default: 67.02, a "
+                   "monitor 0.7 m wide with 3840 pixels per row, seen from 0.7 m")
+      ->option_text("N")
+      ->check(number_from(kMinPixelsPerDegree, kMaxPixelsPerDegree));
+  command
+      ->add_option("--map", request.map,
+                   "picture to write: the FLIP error of each pixel, from black (0) over purple and orange to "
+                   "pale yellow (1)")
+      ->option_text("FILE")
+      ->check(not_empty("FILE's name"));
+  command->add_flag("--json", request.json, "print JSON");
+  command->add_option("--threads", request.threads, "threads; default: TESSERA_THREADS, or all cores")
+      ->option_text("N")
+      ->transform(integer_from(1, 1024));
   return command;
 }
 

@@ -1,8 +1,9 @@
-// Declares the options of `tessera render`, `tessera explain` and `tessera selftest`.
+// Declares the options of `tessera render`, `tessera explain`, `tessera compare` and `tessera selftest`.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
+#include "engine/program/cli/compare_command.h"
 #include "engine/program/cli/explain_command.h"
 #include "engine/program/cli/render_command.h"
 #include "engine/program/cli/selftest_command.h"
@@ -12,6 +13,7 @@ namespace tessera::program::cli {
 /// Each adds its command to `program`; parsing fills in `request`, which must outlive the program.
 CLI::App* add_render(CLI::App& program, RenderRequest& request);
 CLI::App* add_explain(CLI::App& program, ExplainRequest& request);
+CLI::App* add_compare(CLI::App& program, CompareRequest& request);
 CLI::App* add_selftest(CLI::App& program, SelftestRequest& request);
 
 }  // namespace tessera::program::cli

@@ -7,15 +7,12 @@
 
 namespace tessera::program::cli {
 
-void refuse_overwriting(const std::string& picture, const std::string& input, const std::string& reference) {
-  const auto refuse_if_same = [&](const std::string& named, const char* role) {
-    std::error_code not_found;
-    if (!named.empty() && std::filesystem::equivalent(picture, named, not_found))
-      throw Error("the picture \"" + picture + "\" would overwrite the " + role + " \"" + named +
-                  "\"; name another file with -o");
-  };
-  refuse_if_same(input, "input");
-  refuse_if_same(reference, "reference");
+void refuse_overwriting(const std::string& picture, const std::string& read, const std::string& role,
+                        const std::string& option) {
+  std::error_code not_found;
+  if (!read.empty() && std::filesystem::equivalent(picture, read, not_found))
+    throw Error("the picture \"" + picture + "\" would overwrite the " + role + " \"" + read +
+                "\"; name another file with " + option);
 }
 
 }  // namespace tessera::program::cli

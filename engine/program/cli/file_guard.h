@@ -6,8 +6,11 @@
 namespace tessera::program::cli {
 
 /// Two paths name the same file if they lead to the same inode; a path that does not exist matches nothing.
-/// @param input, reference  the scene or model, and the picture of --compare; empty: none
-/// @throws Error, naming both paths, if `picture` is the input or the reference.
-void refuse_overwriting(const std::string& picture, const std::string& input, const std::string& reference);
+/// @param read    a file that the command reads; empty: none
+/// @param role    its role in the message: "input"
+/// @param option  the option that names `picture`: "-o"
+/// @throws Error, naming both paths, if they name the same file.
+void refuse_overwriting(const std::string& picture, const std::string& read, const std::string& role,
+                        const std::string& option);
 
 }  // namespace tessera::program::cli

@@ -34,6 +34,7 @@ constexpr const char* kProgramExamples = R"(Examples:
   tessera render                                  the built-in teapot, as tessera.png
   tessera render --help                           options of render
   tessera explain scene.json                      which effects run for each draw, and why
+  tessera compare a.png b.png                     how much two pictures differ, and how visibly
   tessera info                                    this machine and its instruction sets
   tessera selftest                                check that this machine renders correctly
   tessera completion bash > /etc/bash_completion.d/tessera)";
@@ -72,8 +73,8 @@ std::string unexpected_argument(const CLI::App& program) {
   if (std::filesystem::exists(word, error))
     return message + "; did you mean \"tessera render " + word + "\"?";
   return "unknown command \"" + word + "\"" +
-         did_you_mean(word, Names{"render", "explain", "info", "selftest", "bench", "price", "formats",
-                                  "completion", "man"});
+         did_you_mean(word, Names{"render", "explain", "compare", "info", "selftest", "bench", "price",
+                                  "formats", "completion", "man"});
 }
 
 int usage_error(const std::string& message, const CLI::App& program) {
@@ -105,8 +106,9 @@ std::vector<CommandDoc> docs_of(const CLI::App& program) {
       OptionDoc entry{.names = {}, .value = option->get_option_text(), .text = option->get_description()};
       for (const std::string& name : option->get_snames()) entry.names.push_back("-" + name);
       for (const std::string& name : option->get_lnames()) entry.names.push_back("--" + name);
-      if (entry.names.empty()) doc.operand = entry;
-      else doc.options.push_back(entry);
+      if (!entry.names.empty()) doc.options.push_back(entry);
+      else if (doc.operand.value.empty()) doc.operand = entry;
+      else doc.operand.value += " " + entry.value;
     }
     docs.push_back(doc);
   }
@@ -117,6 +119,7 @@ std::vector<CommandDoc> docs_of(const CLI::App& program) {
 struct Requests {
   RenderRequest render;
   ExplainRequest explain;
+  CompareRequest compare;
   SelftestRequest selftest;
   std::string shell;  ///< for `completion`
 };
@@ -125,6 +128,7 @@ struct Requests {
 struct Commands {
   CLI::App* render;
   CLI::App* explain;
+  CLI::App* compare;
   CLI::App* info;
   CLI::App* selftest;
   CLI::App* bench;
@@ -166,6 +170,7 @@ Commands add_commands(CLI::App& program, Requests& requests) {
   Commands commands{};
   commands.render = add_render(program, requests.render);
   commands.explain = add_explain(program, requests.explain);
+  commands.compare = add_compare(program, requests.compare);
   commands.info = add_plain("info", "Describe this machine and what Tessera uses of it", "tessera info");
   commands.selftest = add_selftest(program, requests.selftest);
   commands.bench =
@@ -204,6 +209,7 @@ int run(int argument_count, char** arguments) {
   int* threads = nullptr;
   if (commands.render->parsed()) threads = &requests.render.options.threads;
   if (commands.explain->parsed() && requests.explain.measure) threads = &requests.explain.threads;
+  if (commands.compare->parsed()) threads = &requests.compare.threads;
   if (commands.selftest->parsed()) threads = &requests.selftest.threads;
   if (threads != nullptr)
     if (const std::string wrong = read_threads_variable(*threads); !wrong.empty())
@@ -222,6 +228,7 @@ int run(int argument_count, char** arguments) {
     return render(std::move(request));
   }
   if (commands.explain->parsed()) return explain(requests.explain);
+  if (commands.compare->parsed()) return compare(requests.compare);
   if (commands.info->parsed()) std::cout << info_text();
   else if (commands.formats->parsed()) std::cout << formats_text();
   else if (commands.completion->parsed()) std::cout << completion_script(requests.shell, docs_of(program));

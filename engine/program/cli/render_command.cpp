@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "engine/program/cli/compare.h"
 #include "engine/program/cli/explain_command.h"
 #include "engine/program/cli/file_guard.h"
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/scene_input.h"
+#include "engine/program/compare/picture_errors.h"
 #include "engine/program/scene/file_extension.h"
 #include "engine/program/threads/thread_limit.h"
 
@@ -115,13 +115,14 @@ std::uint64_t count_fragments(const Scene& scene, RendererOptions options) {
 }
 
 int report_difference(const Picture& picture, const Picture& reference, const RenderRequest& request) {
-  const Difference difference = compare(picture, reference, request.threshold);
+  const PictureErrors errors = picture_errors(pixels_of(picture), pixels_of(reference));
+  const std::uint64_t wrong_pixels = errors.pixels_over(request.threshold);
   char share[32];
-  std::snprintf(share, sizeof share, "%.4f %%", 100 * difference.share);
-  std::cerr << "tessera: " << difference.pixels << " pixels (" << share << ") differ by more than "
+  std::snprintf(share, sizeof share, "%.4f %%", 100 * errors.share_over(request.threshold));
+  std::cerr << "tessera: " << wrong_pixels << " pixels (" << share << ") differ by more than "
             << request.threshold << " of 255 levels from \"" << request.reference
-            << "\"; the largest difference is " << difference.largest << "\n";
-  return difference.pixels == 0 ? 0 : kDiffers;
+            << "\"; the largest difference is " << errors.largest << "\n";
+  return wrong_pixels == 0 ? 0 : kDiffers;
 }
 
 /// Refuses contradictory outputs before anything is rendered.
@@ -140,8 +141,11 @@ void check_outputs(const RenderRequest& request, const std::string& path) {
   if (stdout_users.size() > 1)
     throw Error(stdout_users[0] + " and " + stdout_users[1] + " cannot both go to the standard output");
   if (is_stream(path)) return;
-  for (int f = 0; f < request.frames; ++f)
-    refuse_overwriting(frame_path(path, f, request.frames), request.input, request.reference);
+  for (int f = 0; f < request.frames; ++f) {
+    const std::string file = frame_path(path, f, request.frames);
+    refuse_overwriting(file, request.input, "input", "-o");
+    refuse_overwriting(file, request.reference, "reference", "-o");
+  }
 }
 
 void write_frame(const Picture& picture, const FrameBuffer& buffer, bool is_indexed, const std::string& file,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
 #include <system_error>
 
 #include "engine/program/scene/suggest.h"
@@ -29,6 +30,19 @@ CLI::Validator integer_from(int min_value, int max_value) {
     }
     return "found \"" + value + "\", expected an integer from " + std::to_string(min_value) + " to " +
            std::to_string(max_value);
+  };
+  return {check, ""};
+}
+
+CLI::Validator number_from(double min_value, double max_value) {
+  const auto check = [min_value, max_value](std::string& value) -> std::string {
+    double number = 0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    const bool is_number = error == std::errc() && end == value.data() + value.size();
+    if (is_number && number >= min_value && number <= max_value) return "";
+    std::ostringstream message;
+    message << "found \"" << value << "\", expected a number from " << min_value << " to " << max_value;
+    return message.str();
   };
   return {check, ""};
 }

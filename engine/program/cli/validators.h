@@ -16,6 +16,9 @@ CLI::Validator one_of(const Names& names);
 /// Rewrites the value as a plain decimal number: CLI11 would read a leading 0 as octal.
 CLI::Validator integer_from(int min_value, int max_value);
 
+/// Accepts finite decimal numbers.
+CLI::Validator number_from(double min_value, double max_value);
+
 /// Distinguishes an empty value from an option that is not given.
 CLI::Validator not_empty(const std::string& expected);
 
