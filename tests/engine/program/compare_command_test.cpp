@@ -2,6 +2,7 @@
 #ifdef TESSERA_PROGRAM
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 
 #include <nlohmann/json.hpp>

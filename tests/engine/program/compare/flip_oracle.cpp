@@ -1,5 +1,6 @@
 #include "tests/engine/program/compare/flip_oracle.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/program/compare/flip_filters.h"
@@ -55,19 +57,25 @@ TEST(FlipErrors, AgreeWithDirectConvolution) {
   }
 }
 
-// Differences in one corner: most tiles are equal around, and their errors are exactly 0.
+// Two pixels differ, within the reach of filters from the tiles on each side. Tiles that are equal around
+// have errors of exactly 0.
 TEST(FlipErrors, AgreeWithDirectConvolutionNextToEqualTiles) {
-  const RgbPicture a = random_picture(140, 70, 1);
+  constexpr int kWidth = 200, kHeight = 70;
+  constexpr double kPixelsPerDegree = 10;
+  ASSERT_EQ(flip_filters(kPixelsPerDegree).radius(), 2);
+  const RgbPicture a = random_picture(kWidth, kHeight, 1);
   RgbPicture b = a;
-  b.rgb[3 * (67 * 140 + 61)] ^= 0x80u;
-  const std::vector<double> expected = flip_oracle(a, b, 10);
-  const FlipErrors errors = flip_errors(a.view(), b.view(), {.pixels_per_degree = 10});
+  for (const auto& [x, y] : {std::pair(62, 65), std::pair(193, 62)})  // tile borders are at 64 and 192
+    b.rgb[static_cast<std::size_t>(3 * (y * kWidth + x))] ^= 0x80u;
+  const std::vector<double> expected = flip_oracle(a, b, kPixelsPerDegree);
+  const FlipErrors errors = flip_errors(a.view(), b.view(), {.pixels_per_degree = kPixelsPerDegree});
   int differing = 0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_NEAR(errors.map[i], expected[i], 1e-6) << i;
     differing += expected[i] > 1e-6 ? 1 : 0;
   }
-  EXPECT_GT(differing, 10);
+  EXPECT_EQ(differing, 42);  // two squares of 5x5 without their corners
+  EXPECT_EQ(errors.map[190], 0);
 }
 
 TEST(FlipErrors, AreTheSameBitsForAnyNumberOfThreads) {

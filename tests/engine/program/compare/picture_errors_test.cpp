@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <vector>
@@ -72,7 +73,8 @@ TEST(PictureErrors, AreExactForSimplePictures) {
 
 TEST(PictureErrors, RejectSizesThatDiffer) {
   const RgbPicture a = noise(4, 3, 1, 2);
-  EXPECT_THROW(picture_errors(a.view(), noise(3, 4, 1, 2).view()), Error);
+  EXPECT_THROW(picture_errors(a.view(), noise(5, 3, 1, 2).view()), Error);
+  EXPECT_THROW(picture_errors(a.view(), noise(4, 4, 1, 2).view()), Error);
   EXPECT_THROW(unrounded_errors(a.view(), std::vector<float>(35)), Error);
 }
 
