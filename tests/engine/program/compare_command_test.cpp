@@ -52,21 +52,27 @@ TEST_F(CompareCommand, PrintsTextAndSucceedsWhetherOrNotPicturesDiffer) {
 }
 
 TEST_F(CompareCommand, PrintsJson) {
-  const KnownFlipPair pair = known_flip_pairs()[9];
-  write_pair(pair);
+  const program::RgbPicture reference(64, 64, [](int x, int y) { return program::Rgb{4 * x, 4 * y, 128}; });
+  const program::RgbPicture test(64, 64, [](int x, int y) {
+    return program::Rgb{4 * x + x % 4, 4 * y, 128};
+  });
+  write_ppm("a.ppm", reference);
+  write_ppm("b.ppm", test);
   const Result result = run("compare a.ppm b.ppm --ppd 20 --json");
   EXPECT_EQ(result.code, 0) << result.err;
   const nlohmann::json json = nlohmann::json::parse(result.out);
-  const program::PictureErrors levels = program::picture_errors(pair.test.view(), pair.reference.view());
+  const program::PictureErrors levels = program::picture_errors(test.view(), reference.view());
   const program::FlipErrors flip =
-      program::flip_errors(pair.test.view(), pair.reference.view(), {.pixels_per_degree = 20});
+      program::flip_errors(test.view(), reference.view(), {.pixels_per_degree = 20});
   EXPECT_EQ(json["width"], 64);
   EXPECT_EQ(json["height"], 64);
   EXPECT_EQ(json["largest"], levels.largest);
   EXPECT_EQ(json["rms"], levels.rms);
   EXPECT_EQ(json["psnr_db"], levels.psnr_db);
-  EXPECT_EQ(json["pixels_over_1"], levels.pixels_over(1));
-  EXPECT_EQ(json["share_over_2"], levels.share_over(2));
+  EXPECT_EQ(json["pixels_over_1"], 2048);
+  EXPECT_EQ(json["pixels_over_2"], 1024);
+  EXPECT_EQ(json["share_over_1"], 0.5);
+  EXPECT_EQ(json["share_over_2"], 0.25);
   EXPECT_TRUE(json["largest_alpha"].is_null());
   EXPECT_EQ(json["flip"]["pixels_per_degree"], 20);
   EXPECT_EQ(json["flip"]["mean"], flip.mean);
