@@ -33,8 +33,13 @@ struct BatchSurface {
   bool is_constant = false;                  // all points have the colour of the draw
   bool interpolates_colors = false;          // attributes are colours, 0..1 or levels; not indices
   const LightingProgram* program = nullptr;  // computes colours from the attributes; null: they are colours
-  bool clamps_colors = false;                // extrapolated colours are clamped to 0..1
-  const DrawTexture* texture = nullptr;      // null: none
+  // Coarse shading: cells of cell_size x cell_size pixels are lit by cell_program, and pixels gather none of
+  // the inputs of lighting. 0: no cells.
+  int cell_size = 0;
+  int cell_attribute_count = 0;
+  const LightingProgram* cell_program = nullptr;
+  bool clamps_colors = false;            // extrapolated colours are clamped to 0..1
+  const DrawTexture* texture = nullptr;  // null: none
   Packing packing = Packing::unit;
 
   HWY_INLINE bool is_of(const ShadedTriangle& triangle) const {
@@ -73,7 +78,11 @@ HWY_INLINE void begin_surface(const TileContext& context, BatchSurface& surface,
   surface.first_attribute = is_lit ? draw.first_attribute : draw.color_attribute[face];
   surface.attribute_count = is_index ? 1 : 3;
   if (is_lit) surface.attribute_count = draw.attribute_count;
-  if (surface.is_constant) surface.attribute_count = 0;
+  surface.cell_size = is_lit ? draw.cell_size : 0;
+  surface.cell_attribute_count = surface.attribute_count;
+  surface.cell_program = surface.program;
+  if (surface.cell_size > 0) surface.program = nullptr;
+  if (surface.is_constant || surface.cell_size > 0) surface.attribute_count = 0;
   surface.adjacent = true;
   for (int j = 0; j < surface.attribute_count; ++j) {
     surface.target[j] = context.memory.batch.field[is_lit ? draw.fields[j] : kColorR + j];

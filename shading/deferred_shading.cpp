@@ -5,11 +5,13 @@
 #define HWY_TARGET_INCLUDE "shading/deferred_shading.cpp"
 #include "framebuffer/lanes.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "framebuffer/check.h"
 #include "shading/batch_colors-inl.h"
 #include "shading/batch_surface-inl.h"
+#include "shading/coarse_cells-inl.h"
 #include "shading/draw_functions-inl.h"
 #include "shading/tile_context-inl.h"
 #include "shading/visibility-inl.h"
@@ -116,10 +118,8 @@ HWY_INLINE std::uint32_t take_surface_pixels(const TileContext& context, PixelBa
 }
 #endif
 
-/// Shades the points of the batch, and empties it.
-inline HWY_NOINLINE void shade_batch(TileContext& context, PixelBatch& pixels) {
-  if (pixels.blocks == 0) return;
-  gather_pending(context, pixels);
+/// Evaluates and stores the colours of the batch, whose attributes are gathered, and empties it.
+HWY_INLINE void store_batch(TileContext& context, PixelBatch& pixels) {
   const TileDraw& draw = context.frame.draws[pixels.draw];
   const ShadingBatch& batch = context.memory.batch;
   evaluate_colors(context, pixels, pixels.blocks * kBlockPixels);
@@ -139,6 +139,101 @@ inline HWY_NOINLINE void shade_batch(TileContext& context, PixelBatch& pixels) {
     }
   }
   pixels.blocks = 0;
+}
+
+/// Gathers the texture coordinates of a block in slot `slot` of the batch.
+HWY_INLINE void gather_block_coordinates(const TileContext& context, PixelBatch& pixels, int slot,
+                                         const std::int32_t* visibility) {
+  for (std::uint32_t left = pixels.covered[slot]; left != 0;) {
+    const std::int32_t id = visibility[std::countr_zero(left)];
+    const std::uint32_t covered = pixels_of(visibility, id);
+    left &= ~covered;
+    const ShadedTriangle& triangle = context.memory.visible_triangles[static_cast<std::size_t>(id)];
+    gather_visible<0>(context, pixels, slot, triangle, context.memory.interpolants[id], covered);
+  }
+}
+
+/// Stores the lit colours of the cells in the pixels of the blocks. @pre the surface has no texture
+HWY_INLINE void store_cells(TileContext& context, const PixelBatch& pixels, const CoarseBlocks& coarse,
+                            const CellBatch& cells) {
+  alignas(64) std::int32_t packed[kBatchPoints];
+  for (int first = 0; first < cells.count; first += kLanes)
+    hn::Store(pack_batch_colors(context.frame, pixels, cells.points, first,
+                                low_bits_mask(std::min(cells.count - first, kLanes))),
+              kInt, packed + first);
+  const Int writable = splat(static_cast<std::int32_t>(context.frame.draws[pixels.draw].write_mask));
+  for (int block = 0; block < coarse.count; ++block) {
+    context.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(coarse.covered[block]));
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      const Int cell = hn::Load(kInt, coarse.cell_of_pixel + block * kBlockPixels + chunk * kLanes);
+      store_packed(context.color + coarse.index[block] + chunk * kLanes,
+                   load_words(reinterpret_cast<const std::uint32_t*>(packed), cell),
+                   mask_from_bits(chunk_bits(coarse.covered[block], chunk)), writable);
+    }
+  }
+}
+
+/// Textures and stores the pixels of the blocks, kBatchBlocks at a time.
+HWY_INLINE void store_textured_cells(TileContext& context, PixelBatch& pixels, const CoarseBlocks& coarse,
+                                     const CellBatch& cells) {
+  for (int first = 0; first < coarse.count; first += kBatchBlocks) {
+    const int count = std::min(coarse.count - first, kBatchBlocks);
+    std::copy_n(coarse.index + first, count, pixels.index);
+    std::copy_n(coarse.bx + first, count, pixels.bx);
+    std::copy_n(coarse.by + first, count, pixels.by);
+    std::copy_n(coarse.covered + first, count, pixels.covered);
+    pixels.blocks = count;
+    if (pixels.gathers_coordinates)
+      for (int slot = 0; slot < count; ++slot)
+        gather_block_coordinates(context, pixels, slot, coarse.visibility + (first + slot) * kBlockPixels);
+    spread_cells(cells, coarse.cell_of_pixel + first * kBlockPixels, context.memory.batch,
+                 count * kBlockPixels);
+    store_batch(context, pixels);
+  }
+}
+
+/// Lights the cells of the blocks, stores their pixels, and empties `coarse`.
+HWY_NOINLINE void shade_coarse_blocks(TileContext& context, PixelBatch& pixels, CoarseBlocks& coarse) {
+  CellBatch& cells = context.memory.cells;
+  light_cells(pixels, cells);
+  if (pixels.texture == nullptr) store_cells(context, pixels, coarse, cells);
+  else store_textured_cells(context, pixels, coarse, cells);
+  coarse.count = cells.count = 0;
+}
+
+/// Adds the pixels of a block that belong to the surface, and returns them.
+/// @param pending  pixels of the block that have not been taken yet
+HWY_NOINLINE std::uint32_t take_coarse_pixels(TileContext& context, PixelBatch& pixels, CoarseBlocks& coarse,
+                                              const std::int32_t* visibility, std::uint32_t pending,
+                                              int index, int bx, int by) {
+  CellBatch& cells = context.memory.cells;
+  if (coarse.count == CoarseBlocks::kCapacity || !cells.has_room())
+    shade_coarse_blocks(context, pixels, coarse);
+  const int block = coarse.count++;
+  std::uint32_t taken = 0;
+  for (std::uint32_t left = pending; left != 0;) {
+    const std::int32_t id = visibility[std::countr_zero(left)];
+    const std::uint32_t covered = pixels_of(visibility, id);
+    left &= ~covered;
+    if (context.memory.surfaces[id] != pixels.surface_number()) continue;
+    add_cells(context, pixels, context.memory.visible_triangles[static_cast<std::size_t>(id)], bx, by,
+              covered, cells, coarse.cell_of_pixel + block * kBlockPixels);
+    taken |= covered;
+  }
+  if (pixels.gathers_coordinates)
+    std::copy_n(visibility, kBlockPixels, coarse.visibility + block * kBlockPixels);
+  coarse.index[block] = index;
+  coarse.bx[block] = bx;
+  coarse.by[block] = by;
+  coarse.covered[block] = taken;
+  return taken;
+}
+
+/// Shades the points of the batch, and empties it.
+inline HWY_NOINLINE void shade_batch(TileContext& context, PixelBatch& pixels) {
+  if (pixels.blocks == 0) return;
+  gather_pending(context, pixels);
+  store_batch(context, pixels);
 }
 
 /// Sets the surface numbers and interpolants of all visible triangles. Returns whether they have one surface.
@@ -164,6 +259,7 @@ HWY_INLINE bool prepare_triangles(const TileContext& context) {
 void shade_visible(TileContext& context, int x0, int y0, int x1, int y1) {
   TileWorkspace::Memory& memory = context.memory;
   PixelBatch pixels;
+  CoarseBlocks& coarse = memory.coarse;
   pixels.one_surface = prepare_triangles(context);
   for (int by = y0 & ~3; by <= y1; by += 4) {
     for (int bx = x0 & ~3; bx <= x1; bx += 4) {
@@ -178,8 +274,13 @@ void shade_visible(TileContext& context, int x0, int y0, int x1, int y1) {
         const bool other_surface = !pixels.is_of(leader);
         if (pixels.blocks == kBatchBlocks || other_surface) shade_batch(context, pixels);
         if (other_surface) {
+          if (coarse.count > 0) shade_coarse_blocks(context, pixels, coarse);
           measure_as(context, leader.draw);
           begin_surface(context, pixels, leader);
+        }
+        if (pixels.cell_size > 0) {
+          pending &= ~take_coarse_pixels(context, pixels, coarse, visibility, pending, index, bx, by);
+          continue;
         }
         pixels.index[pixels.blocks] = index;
         pixels.bx[pixels.blocks] = bx;
@@ -193,6 +294,7 @@ void shade_visible(TileContext& context, int x0, int y0, int x1, int y1) {
     }
   }
   shade_batch(context, pixels);
+  if (coarse.count > 0) shade_coarse_blocks(context, pixels, coarse);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -10,6 +10,7 @@
 #include "raster/lane_packing-inl.h"
 #include "shading/batch_colors-inl.h"
 #include "shading/batch_surface-inl.h"
+#include "shading/coarse_cells-inl.h"
 #include "shading/draw_functions-inl.h"
 #include "shading/visibility-inl.h"
 
@@ -46,12 +47,19 @@ struct SampledSpan {
 struct SampledBatch : BatchSurface {
   int count = 0;
   int span_count = 0;
-  SampledSpan spans[kBatchPoints];  // each has at least one point
+  SampledSpan spans[kBatchPoints];                         // each has at least one point
+  alignas(64) std::int32_t cell_of_point[kBatchPoints]{};  // coarse shading
 };
 
 /// Evaluates the packed colours of the batch's points, in order.
 HWY_INLINE void shade_points(TileContext& context, const SampledBatch& points, std::int32_t* packed) {
-  evaluate_colors(context, points, (points.count + kLanes - 1) / kLanes * kLanes);
+  const int whole_count = (points.count + kLanes - 1) / kLanes * kLanes;
+  if (points.cell_size > 0) {
+    light_cells(points, context.memory.cells);
+    spread_cells(context.memory.cells, points.cell_of_point, context.memory.batch, whole_count);
+    context.memory.cells.count = 0;
+  }
+  evaluate_colors(context, points, whole_count);
   for (int point = 0; point < points.count; point += kLanes) {
     const int count = std::min(points.count - point, kLanes);
     // In frames with several samples colours are neither indices nor scaled to levels.
@@ -91,6 +99,22 @@ inline HWY_NOINLINE void add_coordinates(const TileContext& context, SampledBatc
   });
 }
 
+/// Coarse shading: adds the cells of the visible pixels of one triangle in one block, and stores the cell of
+/// each of the points that these pixels will have.
+inline HWY_NOINLINE void add_point_cells(TileContext& context, SampledBatch& points,
+                                         const ShadedTriangle& triangle, int bx, int by,
+                                         std::uint32_t covered) {
+  CellBatch& cells = context.memory.cells;
+  // The points of the block are lit with its cells.
+  const bool has_room = points.count <= kBatchPoints - kBlockPixels - kLanes && cells.has_room();
+  if (!has_room) shade_sampled_batch(context, points);
+  alignas(64) std::int32_t cell_of_pixel[kBlockPixels] = {};
+  add_cells(context, points, triangle, bx, by, covered, cells, cell_of_pixel);
+  int point = points.count;
+  for (std::uint32_t left = covered; left != 0; left &= left - 1)
+    points.cell_of_point[point++] = cell_of_pixel[std::countr_zero(left)];
+}
+
 /// Adds the visible pixels of one triangle in one block to the batch. Shades the batch whenever it is full.
 /// @param kCount   number of attributes, in adjacent arrays and without texture coordinates; 0: any
 /// @param index    the block's first pixel in the tile
@@ -101,6 +125,7 @@ HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, c
   const int count = kCount > 0 ? kCount : points.attribute_count;
   const InterpolantArrays values(triangle, points.first_attribute, count);
   const std::uint32_t covered = any_sample_mask(visible);
+  if (kCount == 0 && points.cell_size > 0) add_point_cells(context, points, triangle, bx, by, covered);
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     const std::uint32_t bits = chunk_bits(covered, chunk);
     if (bits == 0) continue;

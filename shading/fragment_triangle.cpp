@@ -7,6 +7,7 @@
 #include <bit>
 
 #include "shading/batch_colors-inl.h"
+#include "shading/coarse_cells-inl.h"
 #include "shading/fragment_triangle-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -121,6 +122,13 @@ HWY_INLINE void FragmentTriangle::evaluate_block(int bx, int by, std::uint32_t b
   } else if (has_given_colors) {
     for (int c = 0; c < 3; ++c)
       std::copy_n(block_colors + c * kBlockPixels, kBlockPixels, batch.field[kColorR + c]);
+  } else if (surface.cell_size > 0) {
+    CellBatch& cells = context.memory.cells;
+    alignas(64) std::int32_t cell_of_pixel[kBlockPixels] = {};
+    add_cells(context, surface, triangle, bx, by, bits, cells, cell_of_pixel);
+    light_cells(surface, cells);
+    spread_cells(cells, cell_of_pixel, batch, kBlockPixels);
+    cells.count = 0;
   } else if (surface.attribute_count > 0) {
     with_known_count(surface, [&](auto count) HWY_ATTR {
       const InterpolantArrays values(triangle, surface.first_attribute,

@@ -78,6 +78,7 @@ struct TileDraw {
   std::uint8_t fields[kMaxAttributes] = {};
   /// Null: none. @pre with a texture, `deferred` or `ops` is set, and colours are neither scaled nor packed
   const DrawTexture* texture = nullptr;
+  int cell_size = 0;  ///< per_pixel, triangles: side of the cells that are lit, 2 or 4; 0: no cells
   bool captures_normals = false;  ///< per_pixel: normals are also stored in the workspace's normals()
 
   /// Triangles behind everything in their tile are left out before they are set up. @pre filled triangles

@@ -7,6 +7,7 @@
 
 #include "raster/sample_positions.h"
 #include "raster/triangle_setup.h"
+#include "shading/coarse_cells.h"
 #include "shading/interpolate.h"
 #include "shading/lighting.h"
 #include "shading/tile_renderer.h"
@@ -87,6 +88,8 @@ struct alignas(64) TileWorkspace::Memory {
   const float* attributes[3][kGroupSize];
   std::uint32_t source[kGroupSize];
   ShadingBatch batch;
+  CellBatch cells;      ///< empty, except while a surface with coarse shading is shaded
+  CoarseBlocks coarse;  ///< the same
   // Per visible triangle, while they are shaded.
   TriangleInterpolants interpolants[kVisibleTriangleCapacity];
   std::int32_t surfaces[kVisibleTriangleCapacity];

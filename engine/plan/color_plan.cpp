@@ -239,13 +239,25 @@ std::optional<DrawColor> plan_color_inputs(DrawPlan& plan, const RecordedDraw& d
   return DrawColor{rgb(state.material.diffuse), "mesh.colors"};
 }
 
-/// Phong shading: lighting at the pixels.
+/// Side of the cells of coarse shading, in pixels. 0: none; lines and outlines are lit at each pixel.
+int cell_size(const DrawPlan& plan, ShadingCap cap) {
+  const bool fills = plan.mode[0] == PolygonMode::fill || plan.mode[1] == PolygonMode::fill;
+  if (plan.topology != Topology::triangles || !fills) return 0;
+  if (cap == ShadingCap::phong_2x2) return 2;
+  return cap == ShadingCap::phong_4x4 ? 4 : 0;
+}
+
+/// Phong shading: lighting at the pixels, or once per cell of pixels.
 void plan_pixel_lighting(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
                          const EffectNotes& notes) {
   plan.source = ColorSource::per_pixel;
   plan.deferred = !prevents_deferral(plan, layout);
   plan_texturing(plan, false);
-  notes.active(Effect::shading, plan.deferred ? EffectReason::per_pixel : EffectReason::per_fragment);
+  plan.cell_size = cell_size(plan, draw.scene_state->quality.shading);
+  if (plan.cell_size > 0)
+    notes.active(Effect::shading,
+                 plan.cell_size == 2 ? EffectReason::per_2x2_pixels : EffectReason::per_4x4_pixels);
+  else notes.active(Effect::shading, plan.deferred ? EffectReason::per_pixel : EffectReason::per_fragment);
   if (!renormalizes_normals(draw) && plan.needs_normal())
     notes.skipped(Effect::renormalization, EffectReason::disabled);
 }

@@ -46,6 +46,7 @@ struct DrawPlan {
   // Pixels.
   ColorSource source = ColorSource::constant;
   bool affine = false;    ///< varyings are linear in the window
+  int cell_size = 0;      ///< coarse shading of triangles: 2 or 4, the side of a cell in pixels; 0: off
   bool deferred = false;  ///< colours are evaluated once per visible pixel
   std::uint32_t write_mask = 0xffffffffu;
   bool touches_color = true;  ///< the state lets colours change; with alpha 0, write_mask may still be 0

@@ -57,6 +57,8 @@ std::string_view field_of(const EffectNote& note) {
     case EffectReason::no_color_stored: return "color_mask";
     case EffectReason::no_faces:
     case EffectReason::per_point: return "mesh.primitive";
+    case EffectReason::per_2x2_pixels:
+    case EffectReason::per_4x4_pixels: return "quality.shading";
     case EffectReason::draw_is_lit: return "lighting";
     case EffectReason::draw_has_color_indices: return "mesh.color_indices";
     case EffectReason::color_material_none: return "color_material";

@@ -88,6 +88,7 @@ TileDraw tile_draw(const GeometryDraw& geometry) {
   draw.depth_key = plan.depth_key;
   draw.source = plan.source;
   draw.affine = plan.affine;
+  draw.cell_size = plan.cell_size;
   draw.write_mask = plan.write_mask;
   draw.deferred = plan.deferred;
   draw.scaled_colors = plan.scaled_colors;
@@ -123,6 +124,7 @@ void for_each_tile_draw(const GeometryDraw& geometry, const PixelPathFrame& fram
     if (mode != PolygonMode::fill) {
       draw.topology = mode == PolygonMode::line ? Topology::lines : Topology::points;
       draw.size = mode == PolygonMode::line ? plan.line_width : plan.point_size;
+      draw.cell_size = 0;
     }
     add_with_path();
   }

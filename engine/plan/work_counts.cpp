@@ -130,6 +130,16 @@ class DrawCounter {
     return std::max(1.0, kBlockPixels * blocks / pixels);
   }
 
+  /// Points that are lit, per shaded pixel: 1 without coarse shading. Cells of s x s pixels are lit once per
+  /// triangle that is visible in them; see evaluated_points() for their number.
+  double lit_points_per_pixel() const {
+    if (plan_.cell_size == 0 || path_.color_write != ColorWrite::deferred || !(shaded() > 0)) return 1;
+    const double visible_share = std::min(1.0, shaded() / std::max(fragments(), 1.0));
+    const double pixels = std::max(shaded() / std::max(visible_share * binned(), 1.0), 1.0);
+    const double side = std::sqrt(2 * pixels) / plan_.cell_size;
+    return std::min(1.0, (1 + 1.5 * side + side * side / 2) / pixels);
+  }
+
   void count_vertices() {
     const auto vertices = static_cast<double>(work_.vertices);
     counts_[PriceItem::vertex] += vertices;
@@ -221,7 +231,7 @@ class DrawCounter {
     const double points = shaded() * evaluated_points();
     if (plan_.source == ColorSource::per_pixel) {
       counts_[PriceItem::shaded_pixel] += points;
-      add_lights(counts_, plan_.front, kAtPixels, points);
+      add_lights(counts_, plan_.front, kAtPixels, points * lit_points_per_pixel());
       if (plan_.two_sided) counts_[PriceItem::pixel_second_side] += points;
     }
     const bool samples_texels = plan_.textures_per_pixel && plan_.texture.use == TexturePlan::Use::texels;

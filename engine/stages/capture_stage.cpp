@@ -97,6 +97,7 @@ void CaptureStage::change_output(Pass& pass, TileDraw& draw, const FrameCommands
     }
     draw.source = ColorSource::per_pixel;
     draw.captures_normals = true;
+    draw.cell_size = 0;
     draw.first_attribute = commands.plans[plan]->varyings.captured_normal;
     draw.attribute_count = 3;
     for (int c = 0; c < 3; ++c) draw.fields[c] = static_cast<std::uint8_t>(kNormalX + c);

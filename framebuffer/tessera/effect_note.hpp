@@ -102,7 +102,9 @@ enum class EffectReason : std::uint8_t {
   outside_view,               ///< all vertices are outside one side of the view volume or the scissor
   never_read,                 ///< the buffers that it changes are replaced before anything reads them
   affine,                     ///< linear in the window
-  capped                      ///< replaced by a less accurate variant
+  capped,                     ///< replaced by a less accurate variant
+  per_2x2_pixels,             ///< evaluated once per triangle and 2x2 pixels
+  per_4x4_pixels              ///< evaluated once per triangle and 4x4 pixels
 };
 
 /// One effect of a draw. Frame::effects returns them, Frame::explain their text.

@@ -267,6 +267,53 @@ TEST(Determinism, EveryOperationHasTheSameBitsInPaletteColors) {
                                  200, 60);
 }
 
+/// Caps that together select every code path of a Quality.
+const std::vector<Quality>& qualities() {
+  static const std::vector<Quality> kQualities{
+      {.shading = ShadingCap::phong_2x2},
+      {.shading = ShadingCap::phong_4x4, .interpolation = InterpolationCap::affine},
+      {.shading = ShadingCap::phong_2x2, .renormalize = false, .texture = TextureCap::bilinear},
+      {.shading = ShadingCap::phong_4x4, .viewer = ViewerCap::infinite, .light_threshold = 0.3f},
+      {.renormalize = false,
+       .interpolation = InterpolationCap::affine,
+       .texture = TextureCap::nearest,
+       .light_threshold = 0.05f}};
+  return kQualities;
+}
+
+/// The frame has the same bits always, and other bits than without the quality.
+template <class Random>
+void expect_same_bits_under_caps(const Random& random) {
+  const auto in_full = [&](Frame& frame) { random.record(frame); };
+  const Fingerprint plain = stored(random.format, in_full, renderer({1, 64, InstructionSet::automatic}));
+  for (const Quality& quality : qualities()) {
+    SCOPED_TRACE(testing::Message() << "quality " << &quality - qualities().data());
+    const auto record = [&](Frame& frame) {
+      frame.set_quality(quality);
+      random.record(frame);
+    };
+    expect_same_bits_always(random.format, record);
+    EXPECT_NE(stored(random.format, record, renderer({1, 64, InstructionSet::automatic})), plain);
+  }
+}
+
+TEST(Determinism, TrianglesUnderCapsHaveTheSameBits) {
+  expect_same_bits_under_caps(RandomFrame({.width = 150, .height = 90}, 400));
+}
+TEST(Determinism, TrianglesUnderCapsHaveTheSameBitsWithFourSamples) {
+  expect_same_bits_under_caps(RandomFrame({.width = 110, .height = 70, .samples = 4}, 300));
+}
+TEST(Determinism, TrianglesUnderCapsHaveTheSameBitsInPaletteColors) {
+  expect_same_bits_under_caps(
+      RandomFrame({.width = 110, .height = 70, .color_mode = ColorMode::index, .color_bits = 8}, 200));
+}
+TEST(Determinism, EveryOperationUnderCapsHasTheSameBits) {
+  expect_same_bits_under_caps(RandomOperations(full_format(1)));
+}
+TEST(Determinism, EveryOperationUnderCapsHasTheSameBitsWithFourSamples) {
+  expect_same_bits_under_caps(RandomOperations(full_format(4)));
+}
+
 PictureHashes hashes_of_scenes() {
   PictureHashes hashes;
   for (const std::string& name : scene_names()) {

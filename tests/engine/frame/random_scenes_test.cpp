@@ -92,5 +92,37 @@ TEST(RandomScenes, KeepTheirBitsWhateverIsLeftOut) {
   }
 }
 
+/// Different caps for each seed; one of 8 caps nothing but the lights.
+Quality random_quality(std::uint64_t seed) {
+  Quality quality;
+  quality.shading = static_cast<ShadingCap>(seed % 5);
+  quality.renormalize = seed / 2 % 2 == 0;
+  quality.viewer = static_cast<ViewerCap>(seed / 4 % 2);
+  quality.interpolation = static_cast<InterpolationCap>(seed / 3 % 2);
+  quality.texture = static_cast<TextureCap>(seed / 5 % 3);
+  quality.light_threshold = static_cast<float>(seed % 7) / 20;
+  return quality;
+}
+
+TEST(RandomScenes, KeepTheirBitsUnderCaps) {
+  const ThreadLimit limit(8);
+  int changed = 0;
+  for (std::uint64_t seed = 0; seed < scene_count(); ++seed) {
+    Scene scene = scene_of(seed);
+    const std::vector<InstructionSet> sets = available_instruction_sets();
+    const InstructionSet set = sets[seed % sets.size()];
+    const Fingerprint uncapped = picture(scene, {.threads = 1});
+    scene.quality = random_quality(seed);
+    const Fingerprint in_full =
+        picture(scene, {.threads = 1, .elide = false, .debug = {.defer_shading = seed % 2 == 0}});
+    const int threads = 1 + static_cast<int>(seed % 8);
+    const int tile_size = 32 << seed % 3;
+    EXPECT_EQ(picture(scene, {.threads = threads, .tile_size = tile_size, .instruction_set = set}), in_full)
+        << "scene " << seed << ", " << threads << " threads, tiles of " << tile_size << ", " << name(set);
+    changed += in_full == uncapped ? 0 : 1;
+  }
+  EXPECT_GT(changed, static_cast<int>(scene_count() / 2));
+}
+
 }  // namespace
 }  // namespace tessera

@@ -151,7 +151,7 @@ TEST(Explain, LitDrawsUseVertexColorsOnlyThroughColorMaterial) {
   s.colors = true;
   EXPECT_THAT(effects(s), skips(Effect::vertex_colors, EffectReason::color_material_none));
   s.state.color_material = ColorMaterial::diffuse;
-  EXPECT_THAT(effects(s), runs(Effect::texture_filter));
+  EXPECT_THAT(effects(s), runs(Effect::light_tracked_colors));
   s.colors = false;
   EXPECT_THAT(effects(s), Not(mentions(Effect::light_tracked_colors))) << "the mesh has none";
 }
@@ -329,10 +329,10 @@ TEST(Explain, CodesAreDistinctKebabCase) {
         << text;
     EXPECT_TRUE(codes.insert(text).second) << text;
   };
-  for (int i = 0; i <= static_cast<int>(Effect::light_tracked_colors); ++i)
-    check(code(static_cast<Effect>(i)));
+  for (int i = 0; i <= static_cast<int>(Effect::texture_filter); ++i) check(code(static_cast<Effect>(i)));
   codes.clear();
-  for (int i = 0; i <= static_cast<int>(EffectReason::capped); ++i) check(code(static_cast<EffectReason>(i)));
+  for (int i = 0; i <= static_cast<int>(EffectReason::per_4x4_pixels); ++i)
+    check(code(static_cast<EffectReason>(i)));
   EXPECT_EQ(code(Effect::depth_test), "depth_test");
   EXPECT_EQ(code(EffectReason::no_depth_buffer), "no_depth_buffer");
   EXPECT_EQ(code(static_cast<Effect>(255)), "");

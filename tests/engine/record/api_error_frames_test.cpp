@@ -112,6 +112,24 @@ TEST(ErrorsOfFrames, NameInvalidLightsAndCameras) {
              f.set_light_model({.ambient = {kNan, 0, 0, 1}});
            },
            {"ambient", "nan", "finite"}},
+          {"shading cap",
+           [](Frame& f) { f.set_quality({.shading = static_cast<ShadingCap>(5)}); },
+           {"set_quality: shading", "5", "0 to 4"}},
+          {"viewer cap",
+           [](Frame& f) { f.set_quality({.viewer = static_cast<ViewerCap>(2)}); },
+           {"set_quality: viewer", "2", "0 to 1"}},
+          {"interpolation cap",
+           [](Frame& f) { f.set_quality({.interpolation = static_cast<InterpolationCap>(2)}); },
+           {"set_quality: interpolation", "2", "0 to 1"}},
+          {"texture cap",
+           [](Frame& f) { f.set_quality({.texture = static_cast<TextureCap>(3)}); },
+           {"set_quality: texture", "3", "0 to 2"}},
+          {"light threshold",
+           [](Frame& f) { f.set_quality({.light_threshold = 1.5f}); },
+           {"set_quality: light_threshold", "1.5", "0 to 1"}},
+          {"light threshold that is no number",
+           [](Frame& f) { f.set_quality({.light_threshold = kNan}); },
+           {"set_quality: light_threshold", "nan", "0 to 1"}},
       });
 }
 

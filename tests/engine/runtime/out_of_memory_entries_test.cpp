@@ -153,6 +153,7 @@ TEST(OutOfMemoryAnywhere, FailedRecordingLeavesTheFrameUnchanged) {
       {"set_camera", [](Frame& f) { f.set_camera({.projection = perspective(50, 1, 1, 5)}); }},
       {"set_lights", [&](Frame& f) { f.set_lights(lights); }},
       {"set_light_model", [](Frame& f) { f.set_light_model({.two_sided = true}); }},
+      {"set_quality", [](Frame& f) { f.set_quality({.viewer = ViewerCap::infinite}); }},
       {"clear",
        [](Frame& f) {
          f.clear({.color = Color{1, 1, 1, 1}});
