@@ -165,8 +165,9 @@ struct LightingProgram {
 /// Proven reach of a light on a surface (light_reach.h).
 enum class LightReach : std::uint8_t {
   unknown,
-  behind,       ///< behind every normal: no diffuse and no specular light
-  outside_cone  ///< every point is outside the light's cone: no light at all
+  behind,          ///< behind every normal: no diffuse and no specular light
+  outside_cone,    ///< every point is outside the light's cone: no light at all
+  below_threshold  ///< so weak that the draw does without it
 };
 
 /// Plans a surface: the program holds only what lights and material need.

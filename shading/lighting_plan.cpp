@@ -205,6 +205,8 @@ void plan_term(LightingProgram& program, const EyeLight& light, int number, Ligh
     term.ambient = term.tracked_ambient = {};
     if (has_only_ambient) return note_skipped(EffectReason::constant_ambient);
   }
+  if (reach == LightReach::below_threshold)
+    return note_skipped(EffectReason::below_threshold, "quality.light_threshold");
   if (reach == LightReach::outside_cone) return note_skipped(EffectReason::light_outside_cone);
   if (reach == LightReach::behind && !has_ambient(term)) return note_skipped(EffectReason::light_behind);
   if (has_specular(term)) term.highlight = highlight_kind(model);

@@ -7,6 +7,7 @@
 
 #include "engine/plan/eye_space.h"
 #include "engine/plan/light_facts.h"
+#include "engine/plan/light_threshold.h"
 #include "engine/plan/vertex_facts.h"
 #include "engine/record/matrix.h"
 #include "engine/record/quality_caps.h"
@@ -18,6 +19,16 @@ namespace {
 
 SurfaceMaterial surface(const Material& m) {
   return {rgb(m.ambient), rgb(m.diffuse), rgb(m.specular), rgb(m.emission), m.shininess};
+}
+
+ReflectedColors reflected_colors(const Material& m, const TrackedColors& tracked) {
+  return {rgb(m.ambient), rgb(m.diffuse), rgb(m.specular), m.shininess, tracked};
+}
+
+/// Keeps only the lights that are below the threshold.
+void forget_proofs(std::vector<LightReach>& reach) {
+  for (LightReach& light : reach)
+    if (light != LightReach::below_threshold) light = LightReach::unknown;
 }
 
 TrackedColors tracked_colors(ColorMaterial mode) {
@@ -63,7 +74,10 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& la
   const glm::dmat4 view = to_glm(draw.scene_state->camera.view);
   plan.lights.clear();
   for (const Light& light : draw.scene_state->lights) plan.lights.push_back(eye_light(light, view));
-  if (options.elide) prove_light_reach(plan, draw, options.isa);
+  // What is proven decides which lights are below the threshold, with and without `elide`: same picture.
+  std::optional<ContributionBounds> bounds;
+  if (quality.light_threshold > 0) bounds.emplace(plan, draw, options.sampled, options.isa);
+  if (options.elide || bounds) prove_light_reach(plan, draw, options.isa);
   const TrackedColors tracked =
       draw.mesh.has_colors() ? tracked_colors(draw.state.color_material) : TrackedColors{};
   const bool renormalizes = renormalizes_normals(draw);
@@ -76,6 +90,10 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& la
       .viewer_is_capped = model.local_viewer != asked_model.local_viewer};
   const auto set_program = [&](LightingProgram& program, const Material& material, int face,
                                const EffectNotes& face_notes) {
+    if (bounds && !plan.is_index[face])
+      leave_out_weak_lights(plan, face, reflected_colors(material, tracked), *bounds,
+                            quality.light_threshold);
+    if (bounds && !options.elide) forget_proofs(plan.light_reach[face]);
     if (plan.is_index[face]) {
       face_notes.active(Effect::index_lighting);
       program =

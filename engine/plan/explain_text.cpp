@@ -125,6 +125,7 @@ constexpr ReasonWords kReasons[] = {
     {EffectReason::capped, "capped", "less accurate than asked for"},
     {EffectReason::per_2x2_pixels, "per_2x2_pixels", "once per triangle and 2x2 pixels"},
     {EffectReason::per_4x4_pixels, "per_4x4_pixels", "once per triangle and 4x4 pixels"},
+    {EffectReason::below_threshold, "below_threshold", "skipped, it is below the threshold"},
 };
 
 struct BufferWords {
@@ -151,7 +152,7 @@ static_assert(is_indexed_by(kEffects, &EffectWords::effect));
 static_assert(is_indexed_by(kReasons, &ReasonWords::reason));
 static_assert(is_indexed_by(kBufferReasons, &BufferWords::reason));
 static_assert(std::size(kEffects) == static_cast<std::size_t>(Effect::texture_filter) + 1);
-static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::per_4x4_pixels) + 1);
+static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::below_threshold) + 1);
 
 const EffectWords& words_of(Effect effect) { return kEffects[static_cast<std::size_t>(effect)]; }
 const ReasonWords& words_of(EffectReason reason) { return kReasons[static_cast<std::size_t>(reason)]; }

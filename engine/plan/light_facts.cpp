@@ -1,12 +1,10 @@
 #include "engine/plan/light_facts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <vector>
 
-#include "raster/vertex_bounds.h"
-#include "shading/light_reach.h"
+#include "engine/plan/surface_bounds.h"
 
 namespace tessera::detail {
 namespace {
@@ -14,25 +12,6 @@ namespace {
 constexpr std::size_t kSampledVertices = 8;
 constexpr std::size_t kMinPartSize = 64;  ///< vertices or triangles
 constexpr std::size_t kMaxParts = 256;
-
-/// Maps a box of object space by the first three rows of a matrix.
-/// @param columns  of the matrix, in its rows: 3, or 4 with a translation
-VectorBox map_box(const double* matrix, std::size_t columns, const FloatBox& box) {
-  VectorBox mapped;
-  for (std::size_t r = 0; r < 3; ++r) {
-    const double* const row = matrix + columns * r;
-    double magnitude = columns == 4 ? std::abs(row[3]) : 0;
-    mapped.center[r] = columns == 4 ? row[3] : 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double low = box.low[k], high = box.high[k];
-      mapped.center[r] += row[k] * ((low + high) / 2);
-      mapped.half[r] += std::abs(row[k]) * ((high - low) / 2);
-      magnitude += std::abs(row[k]) * std::max(std::abs(low), std::abs(high));
-    }
-    mapped.magnitude = std::max(mapped.magnitude, magnitude);
-  }
-  return mapped;
-}
 
 FloatBox box_of(StridedFloats values, std::size_t vertex) {
   const float* const value = values.at(vertex);
@@ -85,25 +64,6 @@ void sample_vertices(const LightProofs& proofs, std::size_t vertices, DrawPlan& 
   }
 }
 
-/// Boxes of the positions and normals of some vertices.
-struct VertexBoxes {
-  FloatBox positions, normals;
-
-  void include(const VertexBoxes& other) {
-    positions.include(other.positions);
-    normals.include(other.normals);
-  }
-};
-
-/// Null if a value is not finite.
-std::optional<VertexBoxes> boxes_of_vertices(const MeshArrays& mesh, std::size_t first, std::size_t last,
-                                             InstructionSet isa) {
-  VertexBoxes boxes;
-  bool is_finite = find_bounds(isa)(mesh.positions.from(first), last - first, boxes.positions);
-  if (mesh.normals) is_finite &= find_bounds(isa)(mesh.normals.from(first), last - first, boxes.normals);
-  return is_finite ? std::optional(boxes) : std::nullopt;
-}
-
 /// Boxes of the vertices of elements [first, last). @pre first < last
 VertexBoxes boxes_of_elements(const MeshArrays& mesh, std::size_t first, std::size_t last) {
   std::optional<VertexBoxes> boxes;
@@ -142,25 +102,11 @@ void set_reach(DrawPlan& plan, const LightCandidate& proven) {
   if (reach[proven.light] != LightReach::outside_cone) reach[proven.light] = proven.reach;
 }
 
-/// Whether a draw is lit at points between its vertices.
-bool lights_between_vertices(const DrawPlan& plan, const DrawState& state) {
-  return state.shading == Shading::phong && plan.topology != Topology::points;
-}
-
-/// Whether values between vertices leave the range of the vertices: lines extrapolate beyond their ends. With
-/// several samples a pixel's centre may lie outside of its triangle, but its values are clamped.
-bool extrapolates(const DrawPlan& plan) {
-  const bool draws_edges = plan.mode[0] == PolygonMode::line || plan.mode[1] == PolygonMode::line;
-  return plan.topology == Topology::lines || draws_edges;
-}
-
 }  // namespace
 
 void prove_light_reach(DrawPlan& plan, const RecordedDraw& draw, InstructionSet isa) {
   const MeshArrays& mesh = draw.mesh;
-  const double* const last_row = plan.eye.eye_from_object + 12;
-  const bool keeps_w = last_row[0] == 0 && last_row[1] == 0 && last_row[2] == 0 && last_row[3] == 1;
-  if (plan.lights.empty() || mesh.vertices == 0 || mesh.components != 3 || !keeps_w) return;
+  if (plan.lights.empty() || !has_surface_bounds(plan, mesh)) return;
   const bool lights_between = lights_between_vertices(plan, draw.state);
   if (lights_between && extrapolates(plan)) return;
 

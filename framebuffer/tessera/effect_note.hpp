@@ -104,7 +104,8 @@ enum class EffectReason : std::uint8_t {
   affine,                     ///< linear in the window
   capped,                     ///< replaced by a less accurate variant
   per_2x2_pixels,             ///< evaluated once per triangle and 2x2 pixels
-  per_4x4_pixels              ///< evaluated once per triangle and 4x4 pixels
+  per_4x4_pixels,             ///< evaluated once per triangle and 4x4 pixels
+  below_threshold             ///< the light's contribution is below Quality::light_threshold
 };
 
 /// One effect of a draw. Frame::effects returns them, Frame::explain their text.
