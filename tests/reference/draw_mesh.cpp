@@ -40,7 +40,7 @@ void draw_mesh(const Draw& draw, const FrameState& state, SampleBuffers& buffers
   // Shader and pipeline of the current primitive.
   std::optional<PrimitiveShader> shader;
   std::optional<FragmentPipeline> pipeline;
-  rasterize_mesh(mesh, drawn, state.camera, buffers.format(), [&](const DrawnPrimitive& primitive) {
+  const auto start = [&](const DrawnPrimitive& primitive) {
     shader.emplace(primitive.corners, primitive.is_back, colors);
     pipeline.emplace(
         drawn, [&shader](const Fragment& fragment) { return shader->shade(fragment); },
@@ -48,7 +48,8 @@ void draw_mesh(const Draw& draw, const FrameState& state, SampleBuffers& buffers
                                  primitive.is_back},
         buffers);
     return [&pipeline](const Fragment& fragment) { pipeline->take(fragment); };
-  });
+  };
+  rasterize_mesh(mesh, drawn, state.camera, buffers.format(), start, state.sample_shift);
 }
 
 }  // namespace tessera::reference

@@ -6,6 +6,7 @@
 
 #include "sample_buffers.h"
 #include "scene.h"
+#include "window.h"
 
 namespace tessera::reference {
 
@@ -15,6 +16,7 @@ struct FrameState {
   const Camera& camera;
   const std::vector<Light>& lights;
   std::int32_t command = 0;  ///< index in Scene::frame
+  Point sample_shift{};      ///< shift of all sample positions, in 1/256 pixel
 };
 
 void draw_mesh(const Draw& draw, const FrameState& state, SampleBuffers& buffers);

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "fragment_ops.h"
+#include "lighting.h"
 
 namespace tessera::reference {
 
@@ -31,6 +32,8 @@ void FragmentPipeline::take(const Fragment& fragment) {
     if (planes_ == 0) continue;
     std::uint32_t& word = buffers_.word(fragment.x, fragment.y, s);
     word = (word & ~planes_) | (new_word(shaded(), word, dither) & planes_);
+    Vec4& unrounded = buffers_.sample(fragment.x, fragment.y, s).unrounded;
+    unrounded = masked(new_unrounded(shaded(), word, unrounded), unrounded, state_.color_mask);
     buffers_.record_writer(fragment.x, fragment.y, source_.command, source_.primitive);
   }
 }
@@ -68,6 +71,12 @@ std::uint32_t FragmentPipeline::new_word(const Shade& shade, std::uint32_t store
   if (shade.index) return combined(state_.logic_op, colors.index_word(*shade.index), stored);
   const Vec4 color = state_.blend ? blended(*state_.blend, shade.color, colors.color(stored)) : shade.color;
   return combined(state_.logic_op, colors.word(color, dither), stored);
+}
+
+Vec4 FragmentPipeline::new_unrounded(const Shade& shade, std::uint32_t word, Vec4 stored) const {
+  if (buffers_.format().color_mode == ColorMode::kIndex) return stored;
+  if (state_.logic_op != LogicOp::kCopy) return buffers_.colors().color(word);
+  return clamp01(state_.blend ? blended(*state_.blend, shade.color, stored) : shade.color);
 }
 
 }  // namespace tessera::reference

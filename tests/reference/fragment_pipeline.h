@@ -33,6 +33,9 @@ class FragmentPipeline {
   bool passes_depth(SampleBuffers::Sample& stored, double depth) const;
   std::uint32_t new_word(const Shade& shade, std::uint32_t stored, double dither) const;
 
+  /// @param word  as stored by this fragment
+  Vec4 new_unrounded(const Shade& shade, std::uint32_t word, Vec4 stored) const;
+
   const FragmentState& state_;
   Shader shader_;
   Source source_;

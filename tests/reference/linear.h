@@ -37,6 +37,11 @@ inline Vec4 operator-(Vec4 a, Vec4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z,
 inline Vec4 operator*(double s, Vec4 a) { return {s * a.x, s * a.y, s * a.z, s * a.w}; }
 inline Vec3 xyz(Vec4 a) { return {a.x, a.y, a.z}; }
 
+/// The components of `a` that the mask selects, and the others of `b`.
+inline Vec4 masked(Vec4 a, Vec4 b, const std::array<bool, 4>& mask) {
+  return {mask[0] ? a.x : b.x, mask[1] ? a.y : b.y, mask[2] ? a.z : b.z, mask[3] ? a.w : b.w};
+}
+
 /// rows[r][c] is the element in row r and column c as on paper: a translation is in rows[0..2][3].
 struct Mat4 {
   std::array<std::array<double, 4>, 4> rows{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};

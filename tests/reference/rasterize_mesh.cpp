@@ -30,7 +30,7 @@ Rect whole_window(const FrameBufferFormat& format) { return {0, 0, format.width_
 class MeshRasterizer {
  public:
   MeshRasterizer(const Draw& draw, const Camera& camera, const FrameBufferFormat& format,
-                 const Rect& viewport, const PrimitiveCallback& start)
+                 const Rect& viewport, const PrimitiveCallback& start, Point sample_shift)
       : draw_(draw),
         depth_format_(format.depth),
         start_(start),
@@ -41,7 +41,8 @@ class MeshRasterizer {
                 draw.depth_range,
                 camera.reversed,
                 format.samples,
-                draw.texture.has_value()} {}
+                draw.texture.has_value(),
+                sample_shift} {}
 
   void draw_primitive(const Corners& corners, std::size_t number) {
     if (!is_finite(corners)) return;
@@ -122,11 +123,11 @@ class MeshRasterizer {
 }  // namespace
 
 void rasterize_mesh(const Mesh& mesh, const Draw& draw, const Camera& camera, const FrameBufferFormat& format,
-                    const PrimitiveCallback& start) {
+                    const PrimitiveCallback& start, Point sample_shift) {
   const Rect viewport = draw.viewport.value_or(whole_window(format));
   if (viewport.width == 0 || viewport.height == 0) return;
   const VertexStage vertices(mesh, draw, camera);
-  MeshRasterizer rasterizer(draw, camera, format, viewport, start);
+  MeshRasterizer rasterizer(draw, camera, format, viewport, start, sample_shift);
   for (std::size_t i = 0; i < vertices.primitive_count(); ++i)
     rasterizer.draw_primitive(vertices.corners(i), i);
 }

@@ -22,7 +22,8 @@ struct DrawnPrimitive {
 using PrimitiveCallback = std::function<FragmentCallback(const DrawnPrimitive&)>;
 
 /// @param camera  current at the draw
+/// @param sample_shift  of all sample positions, in 1/256 pixel
 void rasterize_mesh(const Mesh& mesh, const Draw& draw, const Camera& camera, const FrameBufferFormat& format,
-                    const PrimitiveCallback& start);
+                    const PrimitiveCallback& start, Point sample_shift = {});
 
 }  // namespace tessera::reference

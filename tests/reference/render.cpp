@@ -3,6 +3,7 @@
 #include "draw_mesh.h"
 #include "draw_raster.h"
 #include "fragment_ops.h"
+#include "lighting.h"
 #include "sample_buffers.h"
 #include "window.h"
 
@@ -11,8 +12,9 @@ namespace {
 
 class Renderer {
  public:
-  explicit Renderer(const Scene& scene)
+  Renderer(const Scene& scene, Point sample_shift)
       : scene_(scene),
+        sample_shift_(sample_shift),
         format_(scene.framebuffer),
         buffers_(format_),
         camera_(scene.camera),
@@ -43,6 +45,7 @@ class Renderer {
         const double dither = dither_threshold(format_.dither, x, y);
         buffers_.write_word(x, y, clear.index ? *clear.index : buffers_.colors().word(*clear.color, dither),
                             kAllPlanes);
+        if (clear.color) buffers_.write_unrounded(x, y, clamp01(*clear.color), {true, true, true, true});
         buffers_.record_writer(x, y, -1, -1);
       }
       for (int s = 0; s < format_.samples; ++s) {
@@ -64,11 +67,11 @@ class Renderer {
     const std::uint32_t planes = colors.writable_planes(accum.color_mask, ~std::uint32_t{0});
     for_each_pixel(accum.scissor, [&](int x, int y) {
       AccumPixel& stored = buffers_.accumulation(x, y);
-      if (accum.op == AccumOp::kReturn)
-        buffers_.write_word(
-            x, y, colors.word(returned(accum.value, stored, bits), dither_threshold(format_.dither, x, y)),
-            planes);
-      else stored = accumulated(accum.op, accum.value, stored, colors.color(buffers_.resolved(x, y)), bits);
+      if (accum.op == AccumOp::kReturn) {
+        const Vec4 color = returned(accum.value, stored, bits);
+        buffers_.write_word(x, y, colors.word(color, dither_threshold(format_.dither, x, y)), planes);
+        buffers_.write_unrounded(x, y, color, accum.color_mask);
+      } else stored = accumulated(accum.op, accum.value, stored, colors.color(buffers_.resolved(x, y)), bits);
     });
   }
 
@@ -78,10 +81,11 @@ class Renderer {
   }
 
   void execute(const Draw& draw) {
-    draw_mesh(draw, {scene_, camera_, lights_, static_cast<std::int32_t>(command_)}, buffers_);
+    draw_mesh(draw, {scene_, camera_, lights_, static_cast<std::int32_t>(command_), sample_shift_}, buffers_);
   }
 
   const Scene& scene_;
+  Point sample_shift_;
   const FrameBufferFormat& format_;
   SampleBuffers buffers_;
   Camera camera_;
@@ -91,6 +95,6 @@ class Renderer {
 
 }  // namespace
 
-Picture render(const Scene& scene) { return Renderer(scene).run(); }
+Picture render(const Scene& scene, Point sample_shift) { return Renderer(scene, sample_shift).run(); }
 
 }  // namespace tessera::reference

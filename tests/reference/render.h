@@ -6,6 +6,7 @@
 
 #include "accumulation.h"
 #include "scene.h"
+#include "window.h"
 
 namespace tessera::reference {
 
@@ -17,6 +18,9 @@ struct Picture {
   /// Stored colour: levels A:R:G:B (bit k is plane k), luminance level below alpha, or palette index.
   std::vector<std::uint32_t> words;
   std::vector<std::uint8_t> rgb;  ///< displayed colours, 8 bits per component
+  /// Colours 0..1 before rounding to levels and before dither, the mean of a pixel's samples; blending uses
+  /// unrounded destinations. RGB buffers only; unspecified after accumulation operations other than return.
+  std::vector<Vec4> unrounded;
   /// Depth of the last stored fragment, before rounding to a level; 1 without a depth buffer.
   std::vector<double> depth;
   /// Stored depth: unorm level, or the bits of the float; 0 without a depth buffer.
@@ -37,6 +41,8 @@ struct Picture {
 };
 
 /// @param scene  as returned by load_scene() and parse_scene(), which reject invalid scenes.
-Picture render(const Scene& scene);
+/// @param sample_shift  moves the sample positions of all pixels, in 1/256 pixel. Vertices are snapped first,
+///     so the pictures of several shifts sample the same primitives. Bitmaps and images are not shifted.
+Picture render(const Scene& scene, Point sample_shift = {});
 
 }  // namespace tessera::reference

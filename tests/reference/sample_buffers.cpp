@@ -6,7 +6,7 @@ SampleBuffers::SampleBuffers(const FrameBufferFormat& format) : format_(format),
   const auto pixels = static_cast<std::size_t>(format.width_px) * static_cast<std::size_t>(format.height_px);
   const std::size_t samples = pixels * static_cast<std::size_t>(format.samples);
   words_.assign(samples, 0);
-  samples_.assign(samples, Sample{1, depth_level(format.depth, 1), 0});
+  samples_.assign(samples, Sample{1, depth_level(format.depth, 1), 0, {}});
   if (format.accumulation_bits > 0) accumulation_.assign(pixels, AccumPixel{});
   commands_.assign(pixels, -1);
   primitives_.assign(pixels, -1);
@@ -25,6 +25,11 @@ void SampleBuffers::write_word(int x, int y, std::uint32_t word_in, std::uint32_
   }
 }
 
+void SampleBuffers::write_unrounded(int x, int y, Vec4 color, const std::array<bool, 4>& mask) {
+  for (int s = 0; s < format_.samples; ++s)
+    sample(x, y, s).unrounded = masked(color, sample(x, y, s).unrounded, mask);
+}
+
 void SampleBuffers::record_writer(int x, int y, std::int32_t command, std::int32_t primitive) {
   commands_[pixel(x, y)] = command;
   primitives_[pixel(x, y)] = primitive;
@@ -38,6 +43,10 @@ Picture SampleBuffers::picture() const {
     for (int x = 0; x < format_.width_px; ++x) {
       const Sample& first = samples_[first_sample(x, y)];
       picture.words.push_back(resolved(x, y));
+      Vec4 sum;
+      for (int s = 0; s < format_.samples; ++s)
+        sum = sum + samples_[first_sample(x, y) + static_cast<std::size_t>(s)].unrounded;
+      picture.unrounded.push_back(1.0 / format_.samples * sum);
       for (const std::uint8_t component : colors_.shown(picture.words.back()))
         picture.rgb.push_back(component);
       picture.depth.push_back(first.depth);

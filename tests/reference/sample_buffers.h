@@ -19,6 +19,7 @@ class SampleBuffers {
     double depth = 1;  ///< depth of the last stored fragment, before rounding to a level
     std::uint32_t depth_level = 0;
     std::uint32_t stencil = 0;
+    Vec4 unrounded{};  ///< colour before rounding to levels
   };
 
   explicit SampleBuffers(const FrameBufferFormat& format);
@@ -41,6 +42,9 @@ class SampleBuffers {
 
   /// Writes all samples of a pixel through the writable planes.
   void write_word(int x, int y, std::uint32_t word, std::uint32_t planes);
+
+  /// Writes the unrounded colour of all samples of a pixel through a colour mask.
+  void write_unrounded(int x, int y, Vec4 color, const std::array<bool, 4>& mask);
 
   /// Records the primitive and command that wrote the colour last.
   void record_writer(int x, int y, std::int32_t command, std::int32_t primitive);

@@ -50,9 +50,10 @@ WindowVertex window_vertex(const ClipVertex& vertex, const Window& window) {
   const Vec4 p = vertex.position;
   const double z = p.z / p.w;
   const double depth = window.reversed ? z : (z + 1) / 2;
+  // Moving all samples is moving all snapped vertices the other way.
   return {
-      {snap(p.x / p.w * viewport.width / 2) + viewport.width * kSubpixels / 2,
-       snap(p.y / p.w * viewport.height / 2) + viewport.height * kSubpixels / 2},
+      {snap(p.x / p.w * viewport.width / 2) + viewport.width * kSubpixels / 2 - window.sample_shift.x,
+       snap(p.y / p.w * viewport.height / 2) + viewport.height * kSubpixels / 2 - window.sample_shift.y},
       window.depth_range[0] + (window.depth_range[1] - window.depth_range[0]) * std::clamp(depth, 0.0, 1.0),
       1 / p.w,
       vertex.weights};

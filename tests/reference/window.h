@@ -11,6 +11,11 @@
 
 namespace tessera::reference {
 
+/// A point or a vector in 1/256 pixel; points start at the viewport's lower left corner.
+struct Point {
+  std::int64_t x = 0, y = 0;
+};
+
 /// Where a draw may produce fragments.
 struct Window {
   Rect viewport;  ///< may reach beyond the buffer
@@ -19,6 +24,7 @@ struct Window {
   bool reversed = false;
   int samples = 1;
   bool derivatives = false;  ///< fragments need the derivatives of their weights
+  Point sample_shift{};      ///< shift of all sample positions
 };
 
 /// Intersection of two rectangles; width or height 0 if empty.
@@ -38,11 +44,6 @@ inline constexpr double kMaxSize = 1 << 18;
 
 /// A guard band that keeps every snapped coordinate within kExtent.
 ClipVolume clip_volume(const Camera& camera, Rect viewport);
-
-/// A point in 1/256 pixel from the viewport's lower left corner.
-struct Point {
-  std::int64_t x = 0, y = 0;
-};
 
 inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
 inline Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
