@@ -15,6 +15,8 @@ Mesh builtin_mesh(const std::string& name, int detail);
 
 /// Sets the file of the teapot's patches. Default: the macro TESSERA_TEAPOT_PATCHES.
 void set_teapot_patches(const std::string& path);
+/// Sets the content of that file instead.
+void set_teapot_patches_text(const std::string& text);
 
 /// The 32 bicubic patches at detail x detail quads each.
 Mesh teapot_mesh(int detail);

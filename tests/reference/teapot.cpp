@@ -16,16 +16,22 @@ std::string teapot_patches_path = TESSERA_TEAPOT_PATCHES;
 std::string teapot_patches_path;
 #endif
 
+std::string teapot_patches_text;  // empty: read the file
+
 using Weights = std::array<double, 4>;
 using Patch = std::array<std::array<Vec3, 4>, 4>;  // [row][column], z up
 
 // File format: comment lines (#), the number of patches, 16 indices per patch, the number of points, three
 // coordinates per point.
 std::vector<Patch> read_patches() {
-  std::ifstream file(teapot_patches_path);
-  if (!file) throw std::runtime_error("cannot read the teapot's patches: '" + teapot_patches_path + "'");
+  std::ifstream file;
+  std::istringstream text(teapot_patches_text);
+  if (teapot_patches_text.empty()) file.open(teapot_patches_path);
+  if (teapot_patches_text.empty() && !file)
+    throw std::runtime_error("cannot read the teapot's patches: '" + teapot_patches_path + "'");
+  std::istream& lines = teapot_patches_text.empty() ? static_cast<std::istream&>(file) : text;
   std::stringstream numbers;
-  for (std::string line; std::getline(file, line);)
+  for (std::string line; std::getline(lines, line);)
     if (!line.empty() && line[0] != '#') numbers << line << '\n';
 
   std::size_t patch_count = 0;
@@ -92,6 +98,7 @@ Vec3 z_up_to_y_up(Vec3 p) { return {p.x, p.z, -p.y}; }
 }  // namespace
 
 void set_teapot_patches(const std::string& path) { teapot_patches_path = path; }
+void set_teapot_patches_text(const std::string& text) { teapot_patches_text = text; }
 
 Mesh teapot_mesh(int detail) {
   Mesh mesh;
