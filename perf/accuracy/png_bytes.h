@@ -1,0 +1,18 @@
+// PNG files in memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "engine/program/imageio/picture.h"
+
+namespace tessera::accuracy {
+
+/// Encodes red, green and blue of a picture, 8 bits per component.
+/// @throws Error if memory runs out
+std::string png_bytes(const program::Picture& picture);
+
+/// Text of bytes in base64 [RFC 4648, section 4], for data URIs.
+std::string base64(std::string_view bytes);
+
+}  // namespace tessera::accuracy
