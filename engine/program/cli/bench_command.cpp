@@ -10,12 +10,12 @@
 
 namespace tessera::program::cli {
 
-void exec_bench(const std::vector<std::string>& arguments) {
+void exec_measurement(const std::string& name, const std::vector<std::string>& arguments) {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  if (error) throw Error("cannot read /proc/self/exe, which locates tessera-bench: " + error.message());
-  std::vector<std::string> words{"tessera-bench"};
+  if (error) throw Error("cannot read /proc/self/exe, which locates " + name + ": " + error.message());
+  std::vector<std::string> words{name};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -25,9 +25,9 @@ void exec_bench(const std::vector<std::string>& arguments) {
     ::execv(program.c_str(), pointers.data());
     if (errno != ENOENT) throw Error("cannot start \"" + program.string() + "\": " + std::strerror(errno));
   }
-  throw Error(
-      "found no tessera-bench next to this program or in ../libexec/tessera; it is built with the program "
-      "and part of the package tessera");
+  throw Error("found no " + name +
+              " next to this program or in ../libexec/tessera; it is built with the program and part of the "
+              "package tessera");
 }
 
 }  // namespace tessera::program::cli

@@ -1,4 +1,5 @@
-// `tessera bench`: runs the separate program tessera-bench, which keeps the benchmarks out of this one.
+// Commands that run a separate program, which keeps measurements out of this one: `tessera bench` and
+// `tessera price` run tessera-bench, `tessera accuracy` runs tessera-accuracy.
 #pragma once
 
 #include <string>
@@ -6,8 +7,9 @@
 
 namespace tessera::program::cli {
 
-/// Replaces this process by tessera-bench, from the folder of this program or ../libexec/tessera.
+/// Replaces this process by a program from the folder of this one or ../libexec/tessera.
+/// @param name  of its file, for example tessera-bench
 /// @throws Error if it cannot be started
-[[noreturn]] void exec_bench(const std::vector<std::string>& arguments);
+[[noreturn]] void exec_measurement(const std::string& name, const std::vector<std::string>& arguments);
 
 }  // namespace tessera::program::cli

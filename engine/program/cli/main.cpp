@@ -74,7 +74,7 @@ std::string unexpected_argument(const CLI::App& program) {
     return message + "; did you mean \"tessera render " + word + "\"?";
   return "unknown command \"" + word + "\"" +
          did_you_mean(word, Names{"render", "explain", "compare", "info", "selftest", "bench", "price",
-                                  "formats", "completion", "man"});
+                                  "accuracy", "formats", "completion", "man"});
 }
 
 int usage_error(const std::string& message, const CLI::App& program) {
@@ -133,12 +133,13 @@ struct Commands {
   CLI::App* selftest;
   CLI::App* bench;
   CLI::App* price;
+  CLI::App* accuracy;
   CLI::App* formats;
   CLI::App* completion;
   CLI::App* man;
 };
 
-/// A command of tessera-bench, which parses its arguments.
+/// A command of tessera-bench or tessera-accuracy, which parse their arguments.
 CLI::App* add_measurement(CLI::App& program, const char* name, const char* text, const char* examples) {
   CLI::App* command = program.add_subcommand(name, text);
   command->set_help_flag();
@@ -180,6 +181,11 @@ Commands add_commands(CLI::App& program, Requests& requests) {
   commands.price =
       add_measurement(program, "price", "Measure what effects cost on this machine; see tessera price --help",
                       "tessera price\n  tessera price pixel vertex_spot\n  tessera price --json prices.json");
+  commands.accuracy =
+      add_measurement(program, "accuracy", "Measure what accuracy costs in time; see tessera accuracy --help",
+                      "tessera accuracy -o costs\n  tessera accuracy -o costs --quick\n  tessera accuracy -o "
+                      "costs --scenes none "
+                      "mine.json");
   commands.formats =
       add_plain("formats", "List the file formats of scenes, models and pictures", "tessera formats");
   commands.completion = add_completion(program, requests.shell);
@@ -215,12 +221,13 @@ int run(int argument_count, char** arguments) {
     if (const std::string wrong = read_threads_variable(*threads); !wrong.empty())
       return usage_error("TESSERA_THREADS: " + wrong, program);
   if (commands.selftest->parsed()) return selftest(requests.selftest);
-  if (commands.bench->parsed()) exec_bench(commands.bench->remaining());
+  if (commands.bench->parsed()) exec_measurement("tessera-bench", commands.bench->remaining());
   if (commands.price->parsed()) {
     std::vector<std::string> words = commands.price->remaining();
     words.insert(words.begin(), "price");
-    exec_bench(words);
+    exec_measurement("tessera-bench", words);
   }
+  if (commands.accuracy->parsed()) exec_measurement("tessera-accuracy", commands.accuracy->remaining());
   if (commands.render->parsed()) {
     RenderRequest& request = requests.render;
     if (!request.stats_name.empty())
