@@ -167,6 +167,14 @@ HWY_INLINE void add_cell(const BatchSurface& surface, const std::uint8_t* fields
   ++cells.count;
 }
 
+/// add_cell() for the cells in lanes 0 to 3. Lanes are cells. @pre kBatchPoints has room for a vector
+HWY_INLINE void add_four_cells(const BatchSurface& surface, const std::uint8_t* fields,
+                               const InterpolantArrays& values, const Barycentric& at, CellBatch& cells) {
+  for (int j = 0; j < surface.cell_attribute_count; ++j)
+    hn::StoreU(interpolate(at, values, j), kFloat, cells.points.field[fields[j]] + cells.count);
+  cells.count += 4;
+}
+
 /// Adds the cells of one triangle in the block at (bx, by) that contain one of `covered`, and stores the cell
 /// of each of these pixels. @pre `cells` has room for them: CellBatch::has_room()
 /// @param covered        16 bits
@@ -189,6 +197,10 @@ inline HWY_NOINLINE void add_cells(const TileContext& context, const BatchSurfac
     const std::uint32_t bits = wanted >> first & kLaneBits;
     if (bits == 0) continue;
     const Barycentric at = barycentric_of_cells(triangle, edges64, size, bx, by, first, bits);
+    if (kLanes >= 4 && bits == 15 && cells.count + kLanes <= kBatchPoints) {
+      add_four_cells(surface, fields, values, at, cells);
+      continue;
+    }
     alignas(64) float b1[kLanes], b2[kLanes];
     hn::Store(at.b1, kFloat, b1);
     hn::Store(at.b2, kFloat, b2);
