@@ -8,6 +8,7 @@
 #include "engine/program/cli/parse_overrides.h"
 #include "engine/program/cli/validators.h"
 #include "engine/program/scene/quality_names.h"
+#include "engine/program/scene/scene_mode.h"
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera::program::cli {
@@ -18,6 +19,7 @@ constexpr const char* kRenderExamples = R"(Examples:
   tessera render scene.json -o picture.png        a scene
   tessera render truck.glb --size 1280x720        a model, as truck.render.png
   tessera render --palette ega16 -o ega.png       16 colours, nearest entry
+  tessera render --mode cga -o cga.png --dump cga.bin              as a CGA stores it
   tessera render --planes planes --stats          also every bitplane, and statistics
   tessera render scene.json --frames 50 -o 'frame_{frame}.png'     an animation
   tessera render -o term                          the picture in the terminal
@@ -32,6 +34,10 @@ constexpr const char* kCompareExamples = R"(Examples:
   tessera compare before.png after.png
   tessera compare before.png after.png --map errors.png
   tessera compare before.png after.png --ppd 20 --json)";
+constexpr const char* kModesExamples = R"(Examples:
+  tessera modes                                   all named modes
+  tessera modes --diagonal 17 --pitch 0.28        the standard mode of a screen
+  tessera modes --json > modes.json)";
 
 constexpr const char* kSelftestExamples = R"(Examples:
   tessera selftest
@@ -119,6 +125,34 @@ void add_scene_overrides(CLI::App& command, SceneOverrides& overrides) {
   command.add_option("--palette", overrides.palette, "palette; the colour buffer then holds indices")
       ->option_text("bw|gray|ega16|vga256|web216")
       ->check(one_of({"bw", "gray", "ega16", "vga256", "web216"}));
+}
+
+void add_mode(CLI::App& command, SceneOverrides& overrides) {
+  command
+      .add_option_function<std::string>(
+          "--mode",
+          [&overrides](const std::string& name) {
+            try {
+              overrides.mode = named_display_mode(name);
+            } catch (const Error& error) {
+              throw CLI::ValidationError("--mode", error.what());
+            }
+          },
+          "display mode: size, colours and shape of the pixels; a name that tessera modes lists, with "
+          "parameters (cga:palette=0,background=1), or WIDTHxHEIGHTxBITS")
+      ->option_text("NAME");
+  command.add_flag("--reduce", overrides.reduce,
+                   "draw at 24 bits and reduce the picture to the colours of the display mode");
+}
+
+void add_dump(CLI::App& command, RenderRequest& request) {
+  command
+      .add_option(
+          "--dump", request.dump,
+          "file for the memory of the display mode: .iff, .ilbm, .lbm (ILBM), .pcx, or any other name "
+          "for the bytes as the hardware had them")
+      ->option_text("FILE")
+      ->check(not_empty("FILE's name"));
 }
 
 void add_planes(CLI::App& command, RenderRequest& request) {
@@ -227,6 +261,8 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   add_input(*command, request.input);
   add_output(*command, request);
   add_scene_overrides(*command, request.overrides);
+  add_mode(*command, request.overrides);
+  add_dump(*command, request);
   add_planes(*command, request);
   add_view(*command, request.overrides);
   add_repetition(*command, request);
@@ -243,6 +279,7 @@ CLI::App* add_explain(CLI::App& program, ExplainRequest& request) {
   command->option_defaults()->take_last();
   add_input(*command, request.input);
   add_scene_overrides(*command, request.overrides);
+  add_mode(*command, request.overrides);
   add_view(*command, request.overrides);
   command->add_flag("--json", request.json, "print JSON, with stable codes for effects and reasons");
   CLI::Option* const measure = command->add_flag(
@@ -286,6 +323,25 @@ CLI::App* add_compare(CLI::App& program, CompareRequest& request) {
   command->add_option("--threads", request.threads, "threads; default: TESSERA_THREADS, or all cores")
       ->option_text("N")
       ->transform(integer_from(1, 1024));
+  return command;
+}
+
+CLI::App* add_modes(CLI::App& program, ModesRequest& request) {
+  CLI::App* command = program.add_subcommand(
+      "modes", "List the display modes of render --mode, or find the standard mode of a screen");
+  command->footer(kModesExamples);
+  command->option_defaults()->take_last();
+  CLI::Option* const diagonal =
+      command->add_option("--diagonal", request.diagonal_in, "diagonal of a 4:3 screen in inches")
+          ->option_text("INCHES")
+          ->check(positive_number());
+  CLI::Option* const pitch =
+      command->add_option("--pitch", request.pitch_mm, "distance of its dots of one colour in millimetres")
+          ->option_text("MM")
+          ->check(positive_number());
+  diagonal->needs(pitch);
+  pitch->needs(diagonal);
+  command->add_flag("--json", request.json, "print JSON");
   return command;
 }
 

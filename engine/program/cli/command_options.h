@@ -1,10 +1,11 @@
-// Declares the options of `tessera render`, `tessera explain`, `tessera compare` and `tessera selftest`.
+// Declares the options of `tessera render`, `explain`, `compare`, `modes` and `selftest`.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 #include "engine/program/cli/compare_command.h"
 #include "engine/program/cli/explain_command.h"
+#include "engine/program/cli/modes_command.h"
 #include "engine/program/cli/render_command.h"
 #include "engine/program/cli/selftest_command.h"
 
@@ -14,6 +15,7 @@ namespace tessera::program::cli {
 CLI::App* add_render(CLI::App& program, RenderRequest& request);
 CLI::App* add_explain(CLI::App& program, ExplainRequest& request);
 CLI::App* add_compare(CLI::App& program, CompareRequest& request);
+CLI::App* add_modes(CLI::App& program, ModesRequest& request);
 CLI::App* add_selftest(CLI::App& program, SelftestRequest& request);
 
 }  // namespace tessera::program::cli

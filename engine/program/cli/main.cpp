@@ -16,6 +16,7 @@
 #include "engine/program/cli/command_docs.h"
 #include "engine/program/cli/command_options.h"
 #include "engine/program/cli/info_command.h"
+#include "engine/program/cli/modes_command.h"
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/render_command.h"
 #include "engine/program/cli/selftest_command.h"
@@ -74,7 +75,7 @@ std::string unexpected_argument(const CLI::App& program) {
     return message + "; did you mean \"tessera render " + word + "\"?";
   return "unknown command \"" + word + "\"" +
          did_you_mean(word, Names{"render", "explain", "compare", "info", "selftest", "bench", "price",
-                                  "accuracy", "formats", "completion", "man"});
+                                  "accuracy", "modes", "formats", "completion", "man"});
 }
 
 int usage_error(const std::string& message, const CLI::App& program) {
@@ -120,6 +121,7 @@ struct Requests {
   RenderRequest render;
   ExplainRequest explain;
   CompareRequest compare;
+  ModesRequest modes;
   SelftestRequest selftest;
   std::string shell;  ///< for `completion`
 };
@@ -129,6 +131,7 @@ struct Commands {
   CLI::App* render;
   CLI::App* explain;
   CLI::App* compare;
+  CLI::App* modes;
   CLI::App* info;
   CLI::App* selftest;
   CLI::App* bench;
@@ -172,6 +175,7 @@ Commands add_commands(CLI::App& program, Requests& requests) {
   commands.render = add_render(program, requests.render);
   commands.explain = add_explain(program, requests.explain);
   commands.compare = add_compare(program, requests.compare);
+  commands.modes = add_modes(program, requests.modes);
   commands.info = add_plain("info", "Describe this machine and what Tessera uses of it", "tessera info");
   commands.selftest = add_selftest(program, requests.selftest);
   commands.bench =
@@ -236,7 +240,8 @@ int run(int argument_count, char** arguments) {
   }
   if (commands.explain->parsed()) return explain(requests.explain);
   if (commands.compare->parsed()) return compare(requests.compare);
-  if (commands.info->parsed()) std::cout << info_text();
+  if (commands.modes->parsed()) std::cout << modes_text(requests.modes);
+  else if (commands.info->parsed()) std::cout << info_text();
   else if (commands.formats->parsed()) std::cout << formats_text();
   else if (commands.completion->parsed()) std::cout << completion_script(requests.shell, docs_of(program));
   else if (commands.man->parsed()) std::cout << man_page(docs_of(program), std::string(version()));

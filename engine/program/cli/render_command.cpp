@@ -12,10 +12,12 @@
 
 #include "engine/program/cli/explain_command.h"
 #include "engine/program/cli/file_guard.h"
+#include "engine/program/cli/memory_dump.h"
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/scene_input.h"
 #include "engine/program/compare/picture_errors.h"
 #include "engine/program/scene/file_extension.h"
+#include "engine/program/scene/scene_mode.h"
 #include "engine/program/threads/thread_limit.h"
 
 namespace tessera::program::cli {
@@ -49,13 +51,27 @@ std::string plane_path(const fs::path& folder, Buffer which, int k) {
   return (folder / name).string();
 }
 
-void write_planes(const FrameBuffer& buffer, const fs::path& folder) {
+/// Frame buffers of a scene: the one that is drawn, and one of fewer colours if the picture is reduced.
+struct SceneBuffers {
+  explicit SceneBuffers(const Scene& scene) : drawn(scene.framebuffer) {
+    if (scene.reduced) reduced.emplace(*scene.reduced);
+  }
+  /// Holds the colours of the picture.
+  const FrameBuffer& shown() const { return reduced ? *reduced : drawn; }
+
+  FrameBuffer drawn;
+  std::optional<FrameBuffer> reduced;
+};
+
+void write_planes(const SceneBuffers& buffers, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw Error("cannot make the folder \"" + folder.string() + "\": " + error.message());
-  for (const Buffer which : kBuffers)
+  for (const Buffer which : kBuffers) {
+    const FrameBuffer& buffer = which == Buffer::color ? buffers.shown() : buffers.drawn;
     for (int k = 0; k < buffer.plane_count(which); ++k)
       write_plane(buffer.plane(which, k), plane_path(folder, which, k));
+  }
 }
 
 /// Colour-index frames of up to 8 bits and grey frames of up to 2 bits become PNG files of 1, 2, 4 or 8 bits
@@ -133,6 +149,7 @@ void check_outputs(const RenderRequest& request, const std::string& path) {
                   "\" with every frame; put {frame} into the name");
   };
   if (!is_stream(path)) require_frame(path);
+  if (!request.dump.empty()) require_frame(request.dump);
   if (!request.planes_folder.empty()) require_frame(request.planes_folder);
   std::vector<std::string> stdout_users;
   if (is_stream(path)) stdout_users.emplace_back("the picture");
@@ -140,19 +157,25 @@ void check_outputs(const RenderRequest& request, const std::string& path) {
   if (request.stats == StatsFormat::json) stdout_users.emplace_back("--stats=json");
   if (stdout_users.size() > 1)
     throw Error(stdout_users[0] + " and " + stdout_users[1] + " cannot both go to the standard output");
-  if (is_stream(path)) return;
+  if (request.dump == path) throw Error("the picture and --dump are both \"" + path + "\"");
+  const auto protect_inputs = [&](const std::string& file, const char* option) {
+    refuse_overwriting(file, request.input, "input", option);
+    refuse_overwriting(file, request.reference, "reference", option);
+  };
   for (int f = 0; f < request.frames; ++f) {
-    const std::string file = frame_path(path, f, request.frames);
-    refuse_overwriting(file, request.input, "input", "-o");
-    refuse_overwriting(file, request.reference, "reference", "-o");
+    if (!request.dump.empty()) protect_inputs(frame_path(request.dump, f, request.frames), "--dump");
+    if (!is_stream(path)) protect_inputs(frame_path(path, f, request.frames), "-o");
   }
 }
 
-void write_frame(const Picture& picture, const FrameBuffer& buffer, bool is_indexed, const std::string& file,
-                 const std::string& planes_folder, int compression) {
-  if (is_indexed) write_indexed_png(indexed_picture(buffer), file, compression);
+void write_frame(const RenderRequest& request, const Scene& scene, const Picture& picture,
+                 const SceneBuffers& buffers, bool is_indexed, const std::string& file, int frame) {
+  const auto path_of = [&](const std::string& name) { return frame_path(name, frame, request.frames); };
+  const int compression = request.output.compression;
+  if (is_indexed) write_indexed_png(indexed_picture(buffers.shown()), file, compression);
   else write_output(picture, file, compression);
-  if (!planes_folder.empty()) write_planes(buffer, planes_folder);
+  if (!request.planes_folder.empty()) write_planes(buffers, path_of(request.planes_folder));
+  if (!request.dump.empty()) write_memory_dump(buffers.shown(), *scene.mode, path_of(request.dump));
 }
 
 }  // namespace
@@ -167,6 +190,8 @@ int render(RenderRequest request) {
 
   const std::string path = output_path(request);
   check_outputs(request, path);
+  if (!request.dump.empty() && !input.scene().mode)
+    throw Error("--dump writes the memory of a display mode, and the scene has none; name one with --mode");
   std::optional<Picture> reference;
   if (!request.reference.empty()) reference = read_picture(request.reference);
 
@@ -194,10 +219,11 @@ int render(RenderRequest request) {
                                : "rendering";
     input.move_to(request.frames > 1 ? static_cast<double>(f) / (request.frames - 1) : 0);
     const Scene& scene = input.scene();
-    FrameBuffer buffer(scene.framebuffer);
-    Frame frame(buffer, renderer);
+    SceneBuffers buffers(scene);
+    Frame frame(buffers.drawn, renderer);
     Picture picture(scene.framebuffer.width, scene.framebuffer.height);
-    const bool is_indexed = is_indexed_png(buffer.format(), path);
+    const bool is_indexed = is_indexed_png(buffers.shown().format(), path);
+    const bool reads_colors = !scene.reduced && (is_indexed || !request.dump.empty());
     if (request.explain && f == 0) {
       record(scene, frame);
       std::cout << explanation_text(scene, frame);
@@ -206,18 +232,18 @@ int render(RenderRequest request) {
     for (int r = 0; r < request.repeat; ++r, ++done_renders) {
       const auto render_start = std::chrono::steady_clock::now();
       record(scene, frame);
-      keep_buffers(!request.planes_folder.empty(), is_indexed, frame);
+      keep_buffers(!request.planes_folder.empty(), reads_colors, frame);
       run.frame = renderer.finish(frame, picture.target());
+      if (buffers.reduced) reduce_picture(renderer, picture, *buffers.reduced);
       run.render_ms.push_back(milliseconds_since(render_start));
     }
     progress.clear();
     const auto write_start = std::chrono::steady_clock::now();
     const std::string file = frame_path(path, f, request.frames);
-    write_frame(picture, buffer, is_indexed, file, frame_path(request.planes_folder, f, request.frames),
-                request.output.compression);
+    write_frame(request, scene, picture, buffers, is_indexed, file, f);
     run.write_ms += milliseconds_since(write_start);
     for (std::size_t i = 0; i < run.buffer_bytes.size(); ++i)
-      run.buffer_bytes[i] = buffer.allocated_bytes(kBuffers[i]);
+      run.buffer_bytes[i] = buffers.drawn.allocated_bytes(kBuffers[i]);
     if (request.output.path.empty()) std::cerr << "tessera: wrote " << printable(file) << "\n";
     if (request.stats != StatsFormat::none && is_last)
       run.frame.fragments = count_fragments(scene, run.options);

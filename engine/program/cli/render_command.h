@@ -16,6 +16,7 @@ struct RenderRequest {
   std::string input;          ///< a scene or a model; empty: the built-in scene
   OutputRequest output;       ///< path empty: INPUT.render.png in the current folder
   std::string planes_folder;  ///< empty: planes are not written
+  std::string dump;           ///< file for the memory of the display mode; empty: not written
   SceneOverrides overrides;
   RendererOptions options;
   int frames = 1;  ///< pictures of the animation

@@ -21,8 +21,13 @@ SceneInput::SceneInput(const std::string& path, const SceneOverrides& overrides)
   } else {
     const FrameBufferFormat defaults;
     Model model = import_model(path, ModelUse::display, should_continue);
-    scene_ = model_scene(std::move(model), path, overrides_.width.value_or(defaults.width),
-                         overrides_.height.value_or(defaults.height));
+    int width = overrides_.width.value_or(defaults.width);
+    int height = overrides_.height.value_or(defaults.height);
+    if (overrides_.mode) {  // only the aspect matters
+      width = overrides_.mode->width * overrides_.mode->pixel_aspect.numerator;
+      height = overrides_.mode->height * overrides_.mode->pixel_aspect.denominator;
+    }
+    scene_ = model_scene(std::move(model), path, width, height);
   }
   apply(overrides_, scene_);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <sstream>
 #include <system_error>
 
@@ -43,6 +44,17 @@ CLI::Validator number_from(double min_value, double max_value) {
     std::ostringstream message;
     message << "found \"" << value << "\", expected a number from " << min_value << " to " << max_value;
     return message.str();
+  };
+  return {check, ""};
+}
+
+CLI::Validator positive_number() {
+  const auto check = [](std::string& value) -> std::string {
+    double number = 0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    const bool is_number = error == std::errc() && end == value.data() + value.size();
+    if (is_number && std::isfinite(number) && number > 0) return "";
+    return "found \"" + value + "\", expected a number above 0";
   };
   return {check, ""};
 }

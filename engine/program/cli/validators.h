@@ -19,6 +19,9 @@ CLI::Validator integer_from(int min_value, int max_value);
 /// Accepts finite decimal numbers.
 CLI::Validator number_from(double min_value, double max_value);
 
+/// A finite number above 0.
+CLI::Validator positive_number();
+
 /// Distinguishes an empty value from an option that is not given.
 CLI::Validator not_empty(const std::string& expected);
 

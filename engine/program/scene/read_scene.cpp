@@ -6,6 +6,7 @@
 
 #include "engine/program/scene/animate.h"
 #include "engine/program/scene/embedded.h"
+#include "engine/program/scene/scene_mode.h"
 #include "engine/program/scene/text_file.h"
 
 namespace tessera::program {
@@ -37,10 +38,27 @@ void read_palette(const Value& value, Scene& scene) {
   }
 }
 
-void read_framebuffer(const Value& value, Scene& scene) {
-  const Object object(value, {"width", "height", "color", "palette", "dither", "alpha", "depth", "stencil",
-                              "accumulation", "samples"});
+// Size, colours and palette by a display mode.
+void read_mode(const Object& object, Scene& scene) {
+  const Value mode = object.require("mode");
+  for (const char* const key : {"width", "height", "color"})
+    if (const auto other = object.find(key)) other->refuse("the display mode determines it");
+  mode.checked([&] { set_mode(named_display_mode(mode.text()), scene); });
+  if (const auto palette = object.find("palette")) {
+    if (scene.framebuffer.color_mode != ColorMode::index)
+      palette->refuse("the display mode has no palette: its pixels hold colour components");
+    scene.framebuffer.palette.clear();
+    read_palette(*palette, scene);
+    palette->checked([&] { set_mode_palette(std::vector<Color>(scene.framebuffer.palette), scene); });
+    scene.palette_name.clear();
+  }
+  if (const auto reduce = object.find("reduce"); reduce && reduce->boolean()) reduce_to_mode(scene);
+}
+
+// Size, colours and palette of a scene without a display mode.
+void read_colors(const Object& object, Scene& scene) {
   FrameBufferFormat& format = scene.framebuffer;
+  if (const auto reduce = object.find("reduce")) reduce->refuse("needs a display \"mode\"");
   if (const auto width = object.find("width"))
     format.width = static_cast<int>(width->integer(1, kMaxFrameBufferSize));
   if (const auto height = object.find("height"))
@@ -56,6 +74,14 @@ void read_framebuffer(const Value& value, Scene& scene) {
       palette->refuse("a palette needs \"color\": {\"mode\": \"index\"}");
     read_palette(*palette, scene);
   }
+}
+
+void read_framebuffer(const Value& value, Scene& scene) {
+  const Object object(value, {"mode", "reduce", "width", "height", "color", "palette", "dither", "alpha",
+                              "depth", "stencil", "accumulation", "samples"});
+  FrameBufferFormat& format = scene.framebuffer;
+  if (object.has("mode")) read_mode(object, scene);
+  else read_colors(object, scene);
   if (const auto depth = object.find("depth"))
     format.depth = depth->choice<DepthFormat>({{"none", DepthFormat::none},
                                                {"unorm16", DepthFormat::unorm16},
@@ -65,11 +91,12 @@ void read_framebuffer(const Value& value, Scene& scene) {
   if (const auto stencil = object.find("stencil"))
     format.stencil_bits = static_cast<int>(stencil->integer(0, 8));
   if (const auto dither = object.find("dither"))
-    format.dither = dither->choice<Dither>({{"none", Dither::none},
-                                            {"bayer2", Dither::bayer2},
-                                            {"bayer4", Dither::bayer4},
-                                            {"bayer8", Dither::bayer8}},
-                                           {"blue_noise", "floyd_steinberg", "jarvis", "pattern"});
+    (scene.reduced ? *scene.reduced : format).dither =
+        dither->choice<Dither>({{"none", Dither::none},
+                                {"bayer2", Dither::bayer2},
+                                {"bayer4", Dither::bayer4},
+                                {"bayer8", Dither::bayer8}},
+                               {"blue_noise", "floyd_steinberg", "jarvis", "pattern"});
   if (const auto alpha = object.find("alpha")) {
     if (alpha->json() != Json(0) && alpha->json() != Json(8)) alpha->fail("0 or 8 bits");
     format.alpha_bits = static_cast<int>(alpha->integer(0, 8));

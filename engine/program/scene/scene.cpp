@@ -1,5 +1,7 @@
 #include "engine/program/scene/scene.h"
 
+#include "engine/program/scene/scene_mode.h"
+
 namespace tessera::program {
 namespace {
 
@@ -43,7 +45,13 @@ int palette_bits(std::string_view name) {
   return 8;
 }
 
-void apply(const SceneOverrides& overrides, Scene& scene) {
+namespace {
+
+// Size, bits and palette of a scene without a display mode.
+void apply_format(const SceneOverrides& overrides, Scene& scene) {
+  if (overrides.reduce)
+    throw Error(
+        "colors are reduced to those of a display mode, and the scene has none; name one with --mode");
   FrameBufferFormat& format = scene.framebuffer;
   if (overrides.width) format.width = *overrides.width;
   if (overrides.height) format.height = *overrides.height;
@@ -66,6 +74,13 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
     throw Error("the scene's palette has " + std::to_string(format.palette.size()) +
                 " entries, must be at most " + std::to_string(1 << format.color_bits) + " for " +
                 std::to_string(format.color_bits) + " color bits");
+}
+
+}  // namespace
+
+void apply(const SceneOverrides& overrides, Scene& scene) {
+  if (overrides.mode || scene.mode) apply_mode(overrides, scene);
+  else apply_format(overrides, scene);
 
   // Overridden cameras, lights and caps hold for the whole frame.
   if (overrides.camera) {
@@ -95,7 +110,8 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
 }
 
 void record(const Scene& scene, Frame& frame) {
-  const double aspect = static_cast<double>(scene.framebuffer.width) / scene.framebuffer.height;
+  const double aspect = scene.mode ? scene.mode->screen_aspect()
+                                   : static_cast<double>(scene.framebuffer.width) / scene.framebuffer.height;
   frame.set_light_model(scene.light_model);
   frame.set_camera(scene.camera.at_aspect(aspect));
   frame.set_lights(scene.lights);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "engine/program/scene/mesh_data.h"
+#include "engine/tessera/display_mode.hpp"
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera::program {
@@ -67,6 +68,9 @@ struct Scene {
   std::string title;
   FrameBufferFormat framebuffer;
   std::string palette_name;  ///< a built-in palette; empty: determined by bits, or entries of the scene
+  std::optional<DisplayMode> mode = {};  ///< display mode of the picture; see scene_mode.h
+  std::optional<FrameBufferFormat> reduced =
+      {};  ///< the mode's frame buffer, if `framebuffer` has more colours
   SceneCamera camera;
   LightModel light_model;
   LightList lights{Light{}};
@@ -108,6 +112,8 @@ Scene builtin_scene();
 /// Replacements for values of a scene; empty: the scene's own.
 struct SceneOverrides {
   std::optional<int> width = {}, height = {};
+  std::optional<DisplayMode> mode = {};  ///< excludes width, height and color_bits
+  bool reduce = false;  ///< draws at 24 bits and reduces the picture to the colours of the mode
   std::optional<Shading> shading = {};  ///< shading of every draw
   std::optional<int> color_bits = {};
   std::optional<std::string> palette = {};  ///< name; makes the colour buffer a colour-index buffer
@@ -115,7 +121,9 @@ struct SceneOverrides {
   LightList lights = {};                    ///< for the whole frame
   std::optional<Quality> quality = {};      ///< for the whole frame
 };
-/// @throws Error for values out of range and for a palette that does not fit into the colour bits
+/// @throws Error for values out of range, for a palette that does not fit into the colour bits, and for
+/// values
+///   that the display mode determines
 void apply(const SceneOverrides& overrides, Scene& scene);
 
 /// Returns the fewest colour bits that hold a named palette; 8 for a palette of any number of bits or an

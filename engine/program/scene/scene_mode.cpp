@@ -1,0 +1,77 @@
+#include "engine/program/scene/scene_mode.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/program/imageio/picture.h"
+#include "engine/program/scene/suggest.h"
+
+namespace tessera::program {
+
+DisplayMode named_display_mode(const std::string& name) {
+  try {
+    return display_mode(name);
+  } catch (const Error& error) {
+    std::vector<std::string_view> names;
+    for (const DisplayMode& mode : display_modes()) names.push_back(mode.name);
+    const std::string base = name.substr(0, name.find(':'));
+    const bool is_known = std::find(names.begin(), names.end(), base) != names.end();
+    if (is_known || error.code() == ErrorCode::unsupported) throw;
+    throw Error(error.code(), error.what() + did_you_mean(base, names));
+  }
+}
+
+void set_mode(const DisplayMode& mode, Scene& scene) {
+  FrameBufferFormat colors = frame_buffer_format(mode);
+  FrameBufferFormat& format = scene.framebuffer;
+  if (scene.reduced) format.dither = scene.reduced->dither;
+  format.width = colors.width;
+  format.height = colors.height;
+  format.color_mode = colors.color_mode;
+  format.color_bits = colors.color_bits;
+  format.palette = std::move(colors.palette);
+  scene.palette_name.clear();
+  scene.mode = mode;
+  scene.reduced.reset();
+}
+
+void set_mode_palette(std::span<const Color> palette, Scene& scene) {
+  check_palette(*scene.mode, palette);
+  scene.mode->palette.assign(palette.begin(), palette.end());
+  (scene.reduced ? *scene.reduced : scene.framebuffer).palette = scene.mode->palette;
+}
+
+void reduce_to_mode(Scene& scene) {
+  if (scene.reduced) return;
+  FrameBufferFormat& format = scene.framebuffer;
+  scene.reduced = frame_buffer_format(*scene.mode);
+  scene.reduced->depth = DepthFormat::none;
+  scene.reduced->stencil_bits = 0;
+  scene.reduced->dither = format.dither;
+  format.color_mode = ColorMode::rgb;
+  format.color_bits = 24;
+  format.palette.clear();
+  format.dither = Dither::none;
+}
+
+void apply_mode(const SceneOverrides& overrides, Scene& scene) {
+  const bool was_reduced = scene.reduced.has_value();
+  if (overrides.mode) set_mode(*overrides.mode, scene);
+  if (overrides.width || overrides.height)
+    throw Error("the size is that of display mode \"" + scene.mode->name + "\" and cannot be set");
+  if (overrides.color_bits)
+    throw Error("the color bits are those of display mode \"" + scene.mode->name + "\" and cannot be set");
+  if (overrides.palette) set_mode_palette(named_palette(*overrides.palette, scene.mode->color_bits), scene);
+  if (overrides.reduce || was_reduced) reduce_to_mode(scene);
+}
+
+void reduce_picture(Renderer& renderer, Picture& picture, FrameBuffer& buffer) {
+  const Picture source = picture;
+  Frame frame(buffer);
+  frame.draw_image({.pixels = source.rgba.data(), .width = source.width, .height = source.height},
+                   {.depth = {.enabled = false}});
+  frame.keep({Buffer::color});
+  renderer.finish(frame, picture.target());
+}
+
+}  // namespace tessera::program

@@ -1,0 +1,36 @@
+// Scenes in a display mode: the mode determines the size, the colours and the aspect of the picture.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "engine/program/scene/scene.h"
+
+namespace tessera::program {
+
+struct Picture;
+
+/// Returns display_mode(name).
+/// @throws Error as display_mode(); for a mistyped name with a suggestion
+DisplayMode named_display_mode(const std::string& name);
+
+/// Gives the scene's frame buffer the size, bits and palette of a mode; depth, stencil, alpha, samples and
+/// dither stay.
+/// @throws Error for a mode of character cells
+void set_mode(const DisplayMode& mode, Scene& scene);
+/// Replaces the palette of the scene's mode.
+/// @throws Error for colours that the mode cannot show; see check_palette()
+void set_mode_palette(std::span<const Color> palette, Scene& scene);
+/// Makes the scene's frame buffer one of 24 bits, whose pictures are reduced to the colours of the mode. The
+/// dither is that of the reduction. @pre scene.mode
+void reduce_to_mode(Scene& scene);
+
+/// Applies mode, reduction and palette of the overrides.
+/// @throws Error also for overrides that a mode determines. @pre the overrides or the scene have a mode
+void apply_mode(const SceneOverrides& overrides, Scene& scene);
+
+/// Stores a finished picture in a frame buffer of fewer colours, and replaces the picture by the result. Each
+/// pixel is stored as a draw of its colour: rounded or dithered, or as the nearest palette entry.
+void reduce_picture(Renderer& renderer, Picture& picture, FrameBuffer& buffer);
+
+}  // namespace tessera::program
