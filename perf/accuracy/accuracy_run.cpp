@@ -78,6 +78,17 @@ double rounding_rms(const ReferencePicture& reference) {
   return program::unrounded_errors(program::pixels_of(reference.stored), reference.unrounded).rms;
 }
 
+/// For each result: index of the first with the same picture.
+std::vector<std::size_t> first_equal_pictures(const std::vector<SettingResult>& results) {
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    std::size_t k = 0;
+    while (results[k].picture.rgba != results[i].picture.rgba) ++k;
+    first.push_back(k);
+  }
+  return first;
+}
+
 /// Draws each setting once and compares the pictures with the references.
 /// @param progress  as for render_references()
 std::vector<SettingResult> setting_results(AccuracyInput& input, const References& references,
@@ -89,17 +100,22 @@ std::vector<SettingResult> setting_results(AccuracyInput& input, const Reference
     frames.draw();
     results.push_back({setting, {}, frames.picture()});
   }
+  // Many settings draw the same picture: its errors are found once.
+  const std::vector<std::size_t> first = first_equal_pictures(results);
   std::mutex mutex;
   std::size_t done = 0;
   const auto compare = [&](int number) {
-    SettingResult& result = results[static_cast<std::size_t>(number)];
-    result.errors = {setting_errors(result.picture, references.point),
-                     setting_errors(result.picture, references.area)};
+    const auto index = static_cast<std::size_t>(number);
+    SettingResult& result = results[index];
+    if (first[index] == index)
+      result.errors = {setting_errors(result.picture, references.point),
+                       setting_errors(result.picture, references.area)};
     const std::lock_guard lock(mutex);
     if (!progress(static_cast<double>(++done) / static_cast<double>(results.size())))
       throw Cancelled("interrupted");
   };
   program::parallel_for(static_cast<int>(results.size()), threads, [&] { return compare; });
+  for (std::size_t i = 0; i < results.size(); ++i) results[i].errors = results[first[i]].errors;
   return results;
 }
 
@@ -211,8 +227,8 @@ std::string run_accuracy(const AccuracyOptions& options, const std::vector<std::
     std::vector<std::string> child_arguments = arguments;
     child_arguments.push_back("--time-process=" + std::to_string(process));
     processes.push_back(times_of_process(child_arguments, scenes, plan, [&](int rounds) {
-      stages.show((rounds_before + rounds) / all_rounds, times_seconds,
-                  "times, process " + std::to_string(process + 1) + " of 3");
+      return stages.show((rounds_before + rounds) / all_rounds, times_seconds,
+                         "times, process " + std::to_string(process + 1) + " of 3");
     }));
     rounds_before +=
         rounds_of_process(plan.rounds, process) * static_cast<double>(scenes.size() * plan.threads.size());
@@ -231,10 +247,10 @@ std::string run_accuracy(const AccuracyOptions& options, const std::vector<std::
   return summary_text(run, folder);
 }
 
-void run_timing(const AccuracyOptions& options) {
+bool run_timing(const AccuracyOptions& options) {
   const program::cli::Interrupt interrupt;
   std::vector<TimedScene> scenes = timed_scenes(accuracy_inputs(options));
-  time_in_this_process(scenes, plan_of(options), options.time_process, stdout);
+  return time_in_this_process(scenes, plan_of(options), options.time_process, stdout);
 }
 
 }  // namespace tessera::accuracy

@@ -15,7 +15,8 @@ namespace tessera::accuracy {
 ///     nothing is written then
 std::string run_accuracy(const AccuracyOptions& options, const std::vector<std::string>& arguments);
 
-/// Measures the rounds of one process and writes them to stdout.
-void run_timing(const AccuracyOptions& options);
+/// Measures the rounds of one process and writes them to stdout. Returns false after Ctrl-C, which the
+/// program that started this process reports.
+bool run_timing(const AccuracyOptions& options);
 
 }  // namespace tessera::accuracy

@@ -29,8 +29,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return program.exit(success);  // --help
   }
-  if (options.time_process >= 0) run_timing(options);
-  else program::cli::write_to_stdout(run_accuracy(options, {argv + 1, argv + argc}));
+  if (options.time_process >= 0) return run_timing(options) ? 0 : kInterrupted;
+  program::cli::write_to_stdout(run_accuracy(options, {argv + 1, argv + argc}));
   program::cli::require_stdout_written();
   return 0;
 }
@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
     std::cerr << "tessera accuracy: error: " << error.what() << " (see tessera accuracy --help)\n";
     return kBadUsage;
   } catch (const tessera::Cancelled&) {
-    std::cerr << "\ntessera accuracy: interrupted; no results were written\n";
+    std::cerr << "tessera accuracy: interrupted; no results were written\n";
     return kInterrupted;
   } catch (const std::bad_alloc&) {
     std::cerr << "tessera accuracy: error: out of memory\n";

@@ -6,7 +6,7 @@
 
 namespace tessera::accuracy {
 
-std::string png_bytes(const program::Picture& picture) {
+std::string png_bytes(const program::Picture& picture, PngEffort effort) {
   std::vector<std::uint8_t> rgb;
   rgb.reserve(picture.rgba.size() / 4 * 3);
   for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
@@ -17,6 +17,7 @@ std::string png_bytes(const program::Picture& picture) {
   image.width = static_cast<png_uint_32>(picture.width);
   image.height = static_cast<png_uint_32>(picture.height);
   image.format = PNG_FORMAT_RGB;
+  if (effort == PngEffort::fast) image.flags = PNG_IMAGE_FLAG_FAST;
   std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
   png_alloc_size_t size = bytes.size();
   if (png_image_write_to_memory(&image, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0)

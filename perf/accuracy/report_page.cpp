@@ -1,5 +1,7 @@
 #include "perf/accuracy/report_page.h"
 
+#include <cmath>
+#include <iterator>
 #include <map>
 #include <mutex>
 
@@ -66,9 +68,9 @@ struct PageImage {
 
 /// The smaller one of the picture and, after a "~", the difference.
 std::string image_text(const PageImage& image) {
-  const std::string whole = png_bytes(*image.picture);
+  const std::string whole = png_bytes(*image.picture, PngEffort::small);
   if (image.base == nullptr) return base64(whole);
-  const std::string difference = png_bytes(wrapped_difference(*image.picture, *image.base));
+  const std::string difference = png_bytes(wrapped_difference(*image.picture, *image.base), PngEffort::small);
   return difference.size() < whole.size() ? "~" + base64(difference) : base64(whole);
 }
 

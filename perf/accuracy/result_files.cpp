@@ -131,10 +131,10 @@ std::vector<PictureTask> picture_tasks(const RunResult& run) {
 void write_picture_of(const PictureTask& task, const std::string& folder) {
   std::string path = folder + "/" + task.path;
   if (task.reference == nullptr)
-    return program::write_file_atomically(path + ".png", png_bytes(*task.picture));
+    return program::write_file_atomically(path + ".png", png_bytes(*task.picture, PngEffort::fast));
   const AmplifiedDifference difference = amplified_difference(*task.picture, *task.reference);
   path += "_x" + std::to_string(difference.gain) + ".png";
-  program::write_file_atomically(path, png_bytes(difference.picture));
+  program::write_file_atomically(path, png_bytes(difference.picture, PngEffort::fast));
 }
 
 }  // namespace

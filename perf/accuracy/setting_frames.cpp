@@ -13,16 +13,16 @@ using program::SceneCommand;
 
 /// Offset of a pass in 1/16 pixel.
 struct Jitter {
-  int x, y;
+  double x, y;
 };
 
-// The standard sample positions of Direct3D 11 for 4, 8 and 16 samples:
-// ID3D11Device::CheckMultisampleQualityLevels, D3D11_STANDARD_MULTISAMPLE_PATTERN. Each row and column of the
-// pixel's grid holds at most one.
+// The standard sample positions of Direct3D 11 [D3D11_STANDARD_MULTISAMPLE_PATTERN]. Those of 16 samples are
+// moved by 1/32 pixel, so that their mean is the pixel's centre, too.
 constexpr Jitter kFour[] = {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
 constexpr Jitter kEight[] = {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
-constexpr Jitter kSixteen[] = {{1, 1},  {-1, -3}, {-3, 2},  {4, -1}, {-5, -2}, {2, 5},  {5, 3}, {3, -5},
-                               {-2, 6}, {0, -7},  {-4, -6}, {-6, 4}, {-8, 0},  {7, -4}, {6, 7}, {-7, -8}};
+constexpr Jitter kSixteen[] = {{1.5, 1.5},  {-0.5, -2.5}, {-2.5, 2.5}, {4.5, -0.5}, {-4.5, -1.5}, {2.5, 5.5},
+                               {5.5, 3.5},  {3.5, -4.5},  {-1.5, 6.5}, {0.5, -6.5}, {-3.5, -5.5}, {-5.5, 4.5},
+                               {-7.5, 0.5}, {7.5, -3.5},  {6.5, 7.5},  {-6.5, -7.5}};
 
 std::span<const Jitter> jitters(int passes) {
   if (passes == 4) return kFour;
@@ -34,7 +34,7 @@ std::span<const Jitter> jitters(int passes) {
 SceneCamera shifted(const SceneCamera& camera, Jitter jitter, const FrameBufferFormat& format) {
   const double aspect = static_cast<double>(format.width) / format.height;
   SceneCamera result = camera;
-  result.projection = translate(jitter.x / 8.0 / format.width, jitter.y / 8.0 / format.height, 0) *
+  result.projection = translate(jitter.x / 8 / format.width, jitter.y / 8 / format.height, 0) *
                       camera.at_aspect(aspect).projection;
   return result;
 }

@@ -1,6 +1,8 @@
 #include "perf/accuracy/timing_processes.h"
 
 #include <cerrno>
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 
@@ -110,7 +112,7 @@ int rounds_of_process(int rounds, int process) {
   return rounds / kProcesses + (process < rounds % kProcesses ? 1 : 0);
 }
 
-void time_in_this_process(std::vector<TimedScene>& scenes, const TimingPlan& plan, int process,
+bool time_in_this_process(std::vector<TimedScene>& scenes, const TimingPlan& plan, int process,
                           std::FILE* out) {
   const bench::HardwareCounters counters;  // opened before any thread is started
   std::fprintf(out, "counters %d\n", counters.read() ? 1 : 0);
@@ -127,7 +129,7 @@ void time_in_this_process(std::vector<TimedScene>& scenes, const TimingPlan& pla
       }
       const RoundTimer timer(std::move(draws), counters);
       for (int round = 0; round < rounds_of_process(plan.rounds, process); ++round) {
-        if (program::cli::Interrupt::pressed()) throw Cancelled("interrupted");
+        if (program::cli::Interrupt::pressed()) return false;
         write_round(out, t, s, timer.run(seed_of(t, s, process, round)));
       }
     }
@@ -135,11 +137,12 @@ void time_in_this_process(std::vector<TimedScene>& scenes, const TimingPlan& pla
   const Disturbance disturbance = disturbance_so_far() - before;
   std::fprintf(out, "disturbance %lld %.17g\n", static_cast<long long>(disturbance.involuntary_switches),
                disturbance.stolen_ms);
+  return true;
 }
 
 ProcessTimes times_of_process(const std::vector<std::string>& arguments,
                               const std::vector<TimedScene>& scenes, const TimingPlan& plan,
-                              const std::function<void(int)>& progress) {
+                              const std::function<bool(int)>& progress) {
   ProcessTimes times;
   times.rounds.assign(plan.threads.size(), std::vector<ProcessRounds>(scenes.size()));
   const Child child = start(arguments);
@@ -156,7 +159,7 @@ ProcessTimes times_of_process(const std::vector<std::string>& arguments,
       round.opening = read_turn(text);
       round.closing = read_turn(text);
       for (std::size_t k = 0; k < scenes[s].settings.size(); ++k) round.turns.push_back(read_turn(text));
-      progress(++done);
+      if (!progress(++done)) ::kill(child.id, SIGINT);
     } else if (std::sscanf(line, "counters %d", &has_counters) == 1) {
       times.has_counters = has_counters != 0;
     } else if (std::sscanf(line, "disturbance %lld %lg", &switches, &times.disturbance.stolen_ms) == 2) {

@@ -38,15 +38,16 @@ struct ProcessTimes {
 };
 
 /// Measures the share of one process and writes it to `out` as text, line by line. Call from the new process.
-void time_in_this_process(std::vector<TimedScene>& scenes, const TimingPlan& plan, int process,
+/// Returns false after Ctrl-C.
+bool time_in_this_process(std::vector<TimedScene>& scenes, const TimingPlan& plan, int process,
                           std::FILE* out);
 
 /// Runs this program again with the given arguments and reads what time_in_this_process() writes to its
 /// stdout.
-/// @param progress  called after each round with the number of rounds done by this process
-/// @throws Error if the process fails; Cancelled if it was interrupted
+/// @param progress  called after each round with the number of rounds done by this process; false ends it
+/// @throws Error if the process fails; Cancelled after Ctrl-C, or if `progress` returns false
 ProcessTimes times_of_process(const std::vector<std::string>& arguments,
                               const std::vector<TimedScene>& scenes, const TimingPlan& plan,
-                              const std::function<void(int)>& progress);
+                              const std::function<bool(int)>& progress);
 
 }  // namespace tessera::accuracy

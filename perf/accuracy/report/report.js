@@ -33,7 +33,6 @@
     max: {name: "largest", axis: "Largest error, levels", digits: 0},
     flip: {name: "FLIP", axis: "FLIP, mean: 0 is invisible, 1 the largest difference", digits: 4}};
   const state = {scene: scenes[0].name, setting: "default", reference: "area", measure: "rms_unrounded", threads: threadCounts[0]};
-  // Walls have no edges to smooth, so that the reference of one sample tells more.
   const errorColumn = () => `${state.reference}_${state.measure}`;
   const rowOf = (scene, setting, threads) =>
     sceneNamed.get(scene).rows.find((row) => row.setting === setting && row.threads === threads);
@@ -64,7 +63,7 @@
     figure.hidden = threads !== state.threads;
     const shown = [...figures.values()].find((other) => !other.hidden) ?? figure;
     const width = Math.max(360, Math.floor((shown.clientWidth || $("figures").clientWidth || 1000) - 14));
-    const height = Math.round(Math.min(640, Math.max(420, width * 0.5)));
+    const height = 600;
     const error = errorColumn();
     const measure = kMeasures[state.measure];
     const scene = sceneNamed.get(state.scene);

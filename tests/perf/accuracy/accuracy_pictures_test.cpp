@@ -51,15 +51,15 @@ TEST(AccuracyPictures, EnlargedPixelsAreTheNearestLevelsOfBilinearInterpolation)
 
 TEST(AccuracyPictures, PngFilesHoldThePixels) {
   const program::Picture picture = noise(33, 17);
-  const std::string bytes = png_bytes(picture);
-  const reference::Image image = reference::read_png({bytes.begin(), bytes.end()});
-  ASSERT_EQ(image.channels, 3);
-  ASSERT_EQ(image.width, 33);
-  for (int y = 0; y < 17; ++y)
-    for (int x = 0; x < 33; ++x)
-      for (int c = 0; c < 3; ++c)
-        ASSERT_EQ(image.levels[static_cast<std::size_t>(3 * (y * 33 + x) + c)],
-                  picture.rgba[static_cast<std::size_t>(4 * (y * 33 + x) + c)]);
+  for (const PngEffort effort : {PngEffort::fast, PngEffort::small}) {
+    const std::string bytes = png_bytes(picture, effort);
+    const reference::Image image = reference::read_png({bytes.begin(), bytes.end()});
+    ASSERT_EQ(image.channels, 3);
+    ASSERT_EQ(image.width, 33);
+    ASSERT_EQ(image.height, 17);
+    for (std::size_t pixel = 0; pixel < 33 * 17; ++pixel)
+      for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(image.levels[3 * pixel + c], picture.rgba[4 * pixel + c]);
+  }
 }
 
 TEST(AccuracyPictures, Base64TextsAreThoseOfRfc4648) {

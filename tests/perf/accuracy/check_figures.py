@@ -18,7 +18,10 @@ def figures(result, reference):
     differences = [abs(a - b) for a, b in zip(result, reference)]
     rms = math.sqrt(sum(d * d for d in differences) / len(differences))
     worst = [max(differences[i:i + 3]) for i in range(0, len(differences), 3)]
-    share = lambda levels: f"{sum(1 for d in worst if d > levels) / len(worst):.6f}"
+
+    def share(levels):
+        return f"{sum(1 for d in worst if d > levels) / len(worst):.6f}"
+
     return {"max": str(max(differences)), "rms": f"{rms:.4f}",
             "psnr": "inf" if rms == 0 else f"{20 * math.log10(255 / rms):.3f}",
             "share_over_1": share(1), "share_over_2": share(2)}
