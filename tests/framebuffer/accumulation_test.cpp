@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace tessera::detail {
+namespace tessera::detail::accumulation_test {
 namespace {
 
 using Op = AccumOp;
@@ -166,4 +166,4 @@ TEST(AccumulationArithmetic, LosesAtMostOneLevelIn256PassesAt16BitsAndNoneAt32) 
 }
 
 }  // namespace
-}  // namespace tessera::detail
+}  // namespace tessera::detail::accumulation_test

@@ -12,7 +12,7 @@
 #include "framebuffer/bit_transpose_reference.h"
 #include "framebuffer/tile_grid.h"
 
-namespace tessera::detail {
+namespace tessera::detail::bit_transpose_test {
 namespace {
 
 struct TileMemory {
@@ -199,4 +199,4 @@ TEST(BitTranspose, FlippedDepthKeysOf32BitsRoundTrip) {
 }
 
 }  // namespace
-}  // namespace tessera::detail
+}  // namespace tessera::detail::bit_transpose_test

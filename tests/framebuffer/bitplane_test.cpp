@@ -7,7 +7,7 @@
 #include <new>
 #include <utility>
 
-namespace tessera::detail {
+namespace tessera::detail::bitplane_test {
 namespace {
 
 /// Number of set bits in a row of a plane, padding included.
@@ -122,4 +122,4 @@ TEST(Bitplane, AllocateThrowsBadAllocAndStaysUnallocated) {
 #endif
 
 }  // namespace
-}  // namespace tessera::detail
+}  // namespace tessera::detail::bitplane_test

@@ -9,7 +9,7 @@
 
 #include "framebuffer/palette_search_reference.h"
 
-namespace tessera::detail {
+namespace tessera::detail::palette_search_test {
 namespace {
 
 Palette random_palette(int bits, std::size_t given, std::uint32_t seed, int levels = 256) {
@@ -149,4 +149,4 @@ TEST(PaletteSearch, MatchesExhaustiveSearchFor65536Entries) {
 }
 
 }  // namespace
-}  // namespace tessera::detail
+}  // namespace tessera::detail::palette_search_test

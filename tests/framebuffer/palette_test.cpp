@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace tessera::detail {
+namespace tessera::detail::palette_test {
 namespace {
 
 std::vector<Rgb8> entries(std::string_view name, int bits) { return palette_entries(name, bits).value(); }
@@ -99,4 +99,4 @@ TEST(PaletteEntries, DefaultDependsOnBits) {
 }
 
 }  // namespace
-}  // namespace tessera::detail
+}  // namespace tessera::detail::palette_test

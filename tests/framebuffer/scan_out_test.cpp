@@ -11,7 +11,7 @@
 #include "framebuffer/scan_out_reference.h"
 #include "framebuffer/tile_grid.h"
 
-namespace tessera::detail {
+namespace tessera::detail::scan_out_test {
 namespace {
 
 struct TileMemory {
@@ -126,4 +126,4 @@ TEST(ScanOut, MoveKeepsThePalette) {
 }
 
 }  // namespace
-}  // namespace tessera::detail
+}  // namespace tessera::detail::scan_out_test

@@ -14,7 +14,7 @@
 #include "tests/numerics/exact.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::accumulation_test {
 namespace {
 
 constexpr int kWidth = 64, kHeight = 16;
@@ -282,4 +282,4 @@ TEST(NumericsAccumulation, ReturnsTheNearestColorLevel) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::accumulation_test

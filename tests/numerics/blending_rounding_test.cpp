@@ -16,7 +16,7 @@
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/color_components.h"
 
-namespace tessera::test {
+namespace tessera::test::blending_rounding_test {
 namespace {
 
 using Components = std::array<long double, 4>;
@@ -235,4 +235,4 @@ TEST(BlendingRounding, EveryFactorAndEquationInEveryFormat) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::blending_rounding_test

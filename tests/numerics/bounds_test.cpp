@@ -5,7 +5,7 @@
 
 #include "tests/numerics/bounds.h"
 
-namespace tessera::test {
+namespace tessera::test::bounds_test {
 namespace {
 
 template <class Number>
@@ -34,4 +34,4 @@ TEST(Bounds, NanExceedsEveryBound) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::bounds_test

@@ -16,7 +16,7 @@
 #include "tests/numerics/window_triangle.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::clipped_attributes_test {
 using namespace detail;
 namespace {
 
@@ -134,4 +134,4 @@ TEST(ClippedAttributes, RoundOnceAtTheCut) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::clipped_attributes_test

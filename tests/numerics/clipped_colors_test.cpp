@@ -19,7 +19,7 @@
 #include "tests/numerics/plane_mesh.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::clipped_colors_test {
 namespace {
 
 constexpr int kSide = 64;
@@ -156,4 +156,4 @@ TEST(ClippedColors, TexturesAreContinuousAcrossTheCut) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::clipped_colors_test

@@ -14,7 +14,7 @@
 #include "tests/numerics/snapped_folds.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::clipped_neighbours_test {
 namespace {
 
 constexpr int kSide = 64;
@@ -203,4 +203,4 @@ TEST(ClippedNeighbours, SurfacesAroundTheEye) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::clipped_neighbours_test

@@ -12,7 +12,7 @@
 #include "tests/numerics/exact_region.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::clipping_test {
 namespace {
 
 constexpr SquareViewport kView{0, 0, 64};
@@ -155,4 +155,4 @@ TEST(Clipping, ShowsNothingBehindTheEye) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::clipping_test

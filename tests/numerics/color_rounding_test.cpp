@@ -14,7 +14,7 @@
 #include "tests/numerics/color_components.h"
 #include "tests/numerics/exact.h"
 
-namespace tessera::test {
+namespace tessera::test::color_rounding_test {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -321,4 +321,4 @@ TEST(ColorRounding, RoundsColorIndicesExactly) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::color_rounding_test

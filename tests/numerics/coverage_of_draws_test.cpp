@@ -17,7 +17,7 @@
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/visibility_oracle.h"
 
-namespace tessera::test {
+namespace tessera::test::coverage_of_draws_test {
 namespace {
 
 constexpr std::size_t kPixels = std::size_t{VisibilityOracle::kSide} * VisibilityOracle::kSide;
@@ -199,4 +199,4 @@ INSTANTIATE_TEST_SUITE_P(Paths, CoverageOfDraws, testing::ValuesIn(kShadingPaths
                          [](const auto& path) { return path.param.name; });
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::coverage_of_draws_test

@@ -15,7 +15,7 @@
 #include "tests/numerics/counted_mesh.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::coverage_test {
 namespace {
 
 constexpr int kSide = 64;
@@ -304,4 +304,4 @@ TEST(ExactlyOnce, EverySampleOfAPixel) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::coverage_test

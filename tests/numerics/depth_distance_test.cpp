@@ -12,7 +12,7 @@
 #include "tests/numerics/depth_formats.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::depth_distance_test {
 namespace {
 
 constexpr int kSide = 64;
@@ -172,4 +172,4 @@ TEST(DepthDistance, AFloorReachesTheHorizon) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::depth_distance_test

@@ -16,7 +16,7 @@
 #include "tests/numerics/window_triangle.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::depth_equal_test {
 namespace {
 
 constexpr int kSide = 128;
@@ -256,4 +256,4 @@ TEST(DepthEqual, TheSameTriangleIsEqualOnEveryPath) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::depth_equal_test

@@ -11,7 +11,7 @@
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/tilted_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::depth_offset_test {
 namespace {
 
 // One window: an offset does not depend on it.
@@ -134,4 +134,4 @@ TEST(DepthOffset, FloatDepthsRoundTwice) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::depth_offset_test

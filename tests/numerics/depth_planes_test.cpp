@@ -14,7 +14,7 @@
 #include "tests/numerics/tilted_triangles.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::depth_planes_test {
 namespace {
 
 TEST(DepthPlanes, UnormDepthsAreWithinTheirLevels) {
@@ -135,4 +135,4 @@ TEST(DepthPlanes, DepthsStayWithinTheRangeOfTheVertices) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::depth_planes_test

@@ -19,7 +19,7 @@
 #include "tests/numerics/exact.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::depth_rounding_test {
 using namespace detail;
 namespace {
 
@@ -234,4 +234,4 @@ TEST(DepthRounding, PrimitivesParallelToTheScreenStoreTheLevelOfAClear) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::depth_rounding_test

@@ -16,7 +16,7 @@
 #include "tests/numerics/window_triangle.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::depth_test {
 namespace {
 
 constexpr Color kNear{0, 1, 0, 1}, kFar{1, 0, 0, 1}, kBehind{0, 0, 1, 1};
@@ -270,4 +270,4 @@ TEST(DepthSeparation, OffsetByOneUnitSeparatesCoplanarSurfaces) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::depth_test

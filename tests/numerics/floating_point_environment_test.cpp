@@ -18,7 +18,7 @@
 #include "engine/program/threads/thread_limit.h"
 #include "tests/engine/frame/api_random_operations.h"
 
-namespace tessera::test {
+namespace tessera::test::floating_point_environment_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -343,6 +343,6 @@ TEST(FloatingPointEnvironment, ExecutorThreadModesNeitherMatterNorChange) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::floating_point_environment_test
 
 #endif

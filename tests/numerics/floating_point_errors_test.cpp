@@ -13,7 +13,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera::test {
+namespace tessera::test::floating_point_errors_test {
 using namespace program;
 namespace {
 
@@ -171,6 +171,6 @@ TEST(FloatingPointErrors, IsRestoredAfterAFailedFrame) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::floating_point_errors_test
 
 #endif

@@ -16,7 +16,7 @@
 #include "tests/numerics/every_float.h"
 #include "tests/shading/texture_lanes.h"
 
-namespace tessera::test {
+namespace tessera::test::functions_test {
 using namespace detail;
 namespace {
 
@@ -119,4 +119,4 @@ TEST(MathFunctions, PaletteDistances) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::functions_test

@@ -12,7 +12,7 @@
 #include "tests/numerics/counted_mesh.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::huge_clipping_test {
 namespace {
 
 constexpr int kSide = 64;
@@ -110,4 +110,4 @@ TEST(HugeClipping, EdgesAreExact) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::huge_clipping_test

@@ -16,7 +16,7 @@
 #include "tests/numerics/snapped_folds.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::huge_planes_test {
 namespace {
 
 constexpr int kSide = 64;
@@ -191,4 +191,4 @@ TEST(HugePlanes, OutlinesDoNotDependOnTheSize) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::huge_planes_test

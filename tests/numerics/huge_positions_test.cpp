@@ -11,7 +11,7 @@
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/case_renderer.h"
 
-namespace tessera::test {
+namespace tessera::test::huge_positions_test {
 namespace {
 
 constexpr int kSide = 64;
@@ -145,4 +145,4 @@ TEST(HugePositions, ScalingTheProjectionByAPowerOfTwoChangesNothing) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::huge_positions_test

@@ -13,7 +13,7 @@
 #include "tests/numerics/window_triangle.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::interpolation_constant_test {
 namespace {
 
 constexpr int kSide = 128;
@@ -247,4 +247,4 @@ TEST(InterpolationConstant, EveryPixelPathGivesOneColor) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::interpolation_constant_test

@@ -22,7 +22,7 @@
 #include "tests/raster/random_triangles.h"
 #include "tests/shading/interpolate_lanes.h"
 
-namespace tessera::test {
+namespace tessera::test::interpolation_range_test {
 using namespace detail;
 namespace {
 
@@ -201,4 +201,4 @@ TEST(InterpolationRange, ErrorsAreWithinTheirRoundings) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::interpolation_range_test

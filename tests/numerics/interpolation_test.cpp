@@ -14,7 +14,7 @@
 #include "tests/numerics/window_triangle.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::interpolation_test {
 namespace {
 
 struct Colored {
@@ -231,4 +231,4 @@ TEST(Interpolation, TextureCoordinatesSampleNoTexelOutsideTheRange) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::interpolation_test

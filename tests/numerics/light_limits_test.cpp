@@ -11,7 +11,7 @@
 #include "tests/numerics/random_lit_scenes.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::light_limits_test {
 using namespace detail;
 namespace {
 
@@ -178,4 +178,4 @@ TEST(LightLimits, AnyInputIsLitWithinZeroAndOne) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::light_limits_test

@@ -17,7 +17,7 @@
 #include "tests/numerics/lit_patches.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::light_terms_test {
 using namespace detail;
 namespace {
 
@@ -349,4 +349,4 @@ TEST(LightTerms, Highlights) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::light_terms_test

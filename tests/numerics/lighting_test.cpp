@@ -13,7 +13,7 @@
 #include "tests/numerics/random_lit_scenes.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::lighting_test {
 namespace {
 
 const char* name(Shading s) {
@@ -299,4 +299,4 @@ TEST(LightingAccuracy, OppositeNormalsUseTheirRemainder) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::lighting_test

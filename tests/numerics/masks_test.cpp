@@ -8,7 +8,7 @@
 #include "tests/engine/frame/pixel_support.h"
 #include "tests/numerics/color_components.h"
 
-namespace tessera::test {
+namespace tessera::test::masks_test {
 namespace {
 
 constexpr int kWidth = 40, kHeight = 24;
@@ -206,4 +206,4 @@ TEST(Masks, DepthMaskKeepsEveryPlaneOfDepth) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::masks_test

@@ -11,7 +11,7 @@
 #include "tests/numerics/random_lit_scenes.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::matrices_test {
 namespace {
 
 constexpr Real kFloat = 0x1p-24L;
@@ -214,4 +214,4 @@ TEST(NormalTransforms, FlattenedMeshesHaveTheNormalOfTheirPlane) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::matrices_test

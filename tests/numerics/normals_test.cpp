@@ -16,7 +16,7 @@
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/every_float.h"
 
-namespace tessera::test {
+namespace tessera::test::normals_test {
 using namespace detail;
 namespace {
 
@@ -125,4 +125,4 @@ TEST_P(Normalization, AtPixels) {
 INSTANTIATE_TEST_SUITE_P(Quarters, Normalization, testing::Range(0u, 4u));
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::normals_test

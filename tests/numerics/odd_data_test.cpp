@@ -12,7 +12,7 @@
 #include "tests/numerics/interface_case.h"
 #include "tests/numerics/odd_values.h"
 
-namespace tessera::test {
+namespace tessera::test::odd_data_test {
 namespace {
 
 constexpr int kVertices = 24;  // whole primitives of all kinds
@@ -332,4 +332,4 @@ TEST(OddMeshArrays, SizesThatWrapAreRefused) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::odd_data_test

@@ -5,7 +5,7 @@
 #include "tests/numerics/odd_fields.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::odd_frames_test {
 namespace {
 
 // A number with any exponent that its type allows.
@@ -83,4 +83,4 @@ TEST(OddFrames, AreTheSameOnEveryInstructionSetAndTileSize) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::odd_frames_test

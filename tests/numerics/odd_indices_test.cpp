@@ -7,7 +7,7 @@
 
 #include "tests/engine/frame/pixel_support.h"
 
-namespace tessera::test {
+namespace tessera::test::odd_indices_test {
 namespace {
 
 struct Way {
@@ -89,4 +89,4 @@ TEST(OddIndices, AreRejectedWhateverTheDrawWouldChange) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::odd_indices_test

@@ -14,7 +14,7 @@
 #include "tests/numerics/odd_values.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::odd_matrices_test {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -215,4 +215,4 @@ TEST(OddMatrices, ProductsAreSumsWithinTheirRoundings) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::odd_matrices_test

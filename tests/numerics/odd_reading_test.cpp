@@ -14,7 +14,7 @@
 #include "tests/engine/frame/api_support.h"
 #include "tests/numerics/odd_values.h"
 
-namespace tessera::test {
+namespace tessera::test::odd_reading_test {
 namespace {
 
 using Real = long double;
@@ -199,4 +199,4 @@ TEST(OddReading, InvalidBuffersHaveNoPlanes) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::odd_reading_test

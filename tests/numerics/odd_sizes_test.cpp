@@ -9,7 +9,7 @@
 
 #include "tests/engine/frame/pixel_support.h"
 
-namespace tessera::test {
+namespace tessera::test::odd_sizes_test {
 namespace {
 
 struct Size {
@@ -242,4 +242,4 @@ TEST(OddSizes, MatchTheSamePartOfALargerBuffer) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::odd_sizes_test

@@ -6,7 +6,7 @@
 #include "tests/numerics/odd_fields.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::odd_state_test {
 namespace {
 
 // Expects pixels that neither draw nor image nor accumulation may write to hold the clear value, or outside
@@ -160,4 +160,4 @@ TEST(OddState, ExecutorsUseNoMemoryBeyondTheMaximumWorkerCount) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::odd_state_test

@@ -10,7 +10,7 @@
 #include "tests/numerics/random_lit_scenes.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::planar_shadows_test {
 namespace {
 
 constexpr Real kDouble = 0x1p-53L;
@@ -157,4 +157,4 @@ TEST(PlanarShadows, TooDistantShadowsAreRejected) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::planar_shadows_test

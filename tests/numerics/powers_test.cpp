@@ -17,7 +17,7 @@
 #include "tests/numerics/every_float.h"
 #include "tests/shading/power_lanes.h"
 
-namespace tessera::test {
+namespace tessera::test::powers_test {
 using namespace detail;
 namespace {
 
@@ -181,4 +181,4 @@ TEST(PowerFunctions, PowersOfSubnormalFloats) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::powers_test

@@ -10,7 +10,7 @@
 #include "tests/numerics/exact.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::sample_positions_test {
 namespace {
 
 // Every multiple of 1/256 pixel is exact in float.
@@ -270,4 +270,4 @@ INSTANTIATE_TEST_SUITE_P(Patterns, SamplePositions, testing::Values(4, 8),
                          [](const auto& count) { return "Of" + std::to_string(count.param); });
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::sample_positions_test

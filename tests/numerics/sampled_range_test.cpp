@@ -13,7 +13,7 @@
 #include "tests/numerics/bounds.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::sampled_range_test {
 namespace {
 
 // Levels of 255.
@@ -163,4 +163,4 @@ TEST(SampledRange, PositionsStayInRange) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::sampled_range_test

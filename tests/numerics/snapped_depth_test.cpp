@@ -20,7 +20,7 @@
 #include "tests/numerics/tilted_triangles.h"
 #include "tests/numerics/window_triangle.h"
 
-namespace tessera::test {
+namespace tessera::test::snapped_depth_test {
 namespace {
 
 constexpr int kSide = 256;
@@ -138,4 +138,4 @@ TEST(SnappedDepth, IsWithinTheMoveOfTheVerticesFromTheUnsnappedPlane) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::snapped_depth_test

@@ -7,7 +7,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera::test {
+namespace tessera::test::stencil_overflow_test {
 namespace {
 
 constexpr StencilOp kOps[] = {StencilOp::keep, StencilOp::zero,   StencilOp::replace,   StencilOp::incr,
@@ -243,4 +243,4 @@ TEST(StencilOverflow, FrontAndBackFacesCancelOut) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::stencil_overflow_test

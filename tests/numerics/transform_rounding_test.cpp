@@ -18,7 +18,7 @@
 #include "tests/numerics/window_triangle.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::transform_rounding_test {
 using namespace detail;
 namespace {
 
@@ -315,4 +315,4 @@ TEST(TransformRounding, Outcodes) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::transform_rounding_test

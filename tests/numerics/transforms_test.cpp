@@ -12,7 +12,7 @@
 #include "tests/numerics/random_lit_scenes.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::transforms_test {
 using namespace program;
 namespace {
 
@@ -256,4 +256,4 @@ TEST(SingularTransforms, DegenerateProjectionsDrawNothing) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::transforms_test

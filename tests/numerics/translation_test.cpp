@@ -13,7 +13,7 @@
 #include "tests/numerics/counted_mesh.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::translation_test {
 namespace {
 
 // Size of the moving window. Buffers have the maximum size in one direction and kAcross pixels in the other.
@@ -286,4 +286,4 @@ TEST(ViewportTranslation, ReachesTheFarCornerOfTheLargestBuffer) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::translation_test

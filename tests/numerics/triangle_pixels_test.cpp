@@ -12,7 +12,7 @@
 #include "tests/numerics/case_renderer.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::triangle_pixels_test {
 namespace {
 
 // Each triangle has its own viewport in a large buffer, so that tile borders cross each one at a different
@@ -155,4 +155,4 @@ TEST(TrianglePixels, MatchTheExactRule) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::triangle_pixels_test

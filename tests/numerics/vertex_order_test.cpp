@@ -11,7 +11,7 @@
 #include "tests/numerics/counted_mesh.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::vertex_order_test {
 namespace {
 
 // Each triangle has its own viewport in a large buffer, so that tile borders cross each one at a different
@@ -102,4 +102,4 @@ TEST(VertexOrder, AffectsNeitherCoverageNorDepth) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::vertex_order_test

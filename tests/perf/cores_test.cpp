@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tessera::bench {
+namespace tessera::bench::cores_test {
 namespace {
 
 TEST(BenchCores, BindsThreadToOneCore) {
@@ -34,4 +34,4 @@ TEST(BenchCores, MeasuresPlausibleLatency) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::cores_test

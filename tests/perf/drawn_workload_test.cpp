@@ -5,7 +5,7 @@
 
 #include "perf/bench/bench_meshes.h"
 
-namespace tessera::bench {
+namespace tessera::bench::drawn_workload_test {
 namespace {
 
 constexpr int kSide = 16;
@@ -69,4 +69,4 @@ TEST(BenchDrawnWorkload, ReportsFaultOfThePicture) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::drawn_workload_test

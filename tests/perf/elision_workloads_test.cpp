@@ -3,7 +3,7 @@
 
 #include "perf/bench/elision_workloads.h"
 
-namespace tessera::bench {
+namespace tessera::bench::elision_workloads_test {
 namespace {
 
 TEST(ElisionWorkloads, HaveThePictureOfTheirBaseline) {
@@ -24,4 +24,4 @@ TEST(ElisionWorkloads, HaveThePictureOfTheirBaseline) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::elision_workloads_test

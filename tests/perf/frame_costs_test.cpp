@@ -14,7 +14,7 @@
 #include "perf/bench/bench_meshes.h"
 #include "perf/bench/drawn_workload.h"
 
-namespace tessera::bench {
+namespace tessera::bench::frame_costs_test {
 namespace {
 
 WorkloadEntry grid_of(int columns, int draws = 1) {
@@ -148,4 +148,4 @@ TEST(BenchFrameCosts, FollowsTaskCountOfLaterFrames) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::frame_costs_test

@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-namespace tessera::bench {
+namespace tessera::bench::growth_test {
 namespace {
 
 using testing::HasSubstr;
@@ -54,4 +54,4 @@ TEST(BenchGrowth, PlotsTimeAndMemory) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::growth_test

@@ -11,7 +11,7 @@
 
 #include "engine/program/threads/thread_limit.h"
 
-namespace tessera::bench {
+namespace tessera::bench::independent_renderers_test {
 using namespace program;
 namespace {
 
@@ -87,4 +87,4 @@ TEST(BenchIndependentRenderers, SpeedUpCountsAllFrames) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::independent_renderers_test

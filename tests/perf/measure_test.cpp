@@ -8,7 +8,7 @@
 #include "perf/bench/bandwidth.h"
 #include "perf/bench/rival_comparisons.h"
 
-namespace tessera::bench {
+namespace tessera::bench::measure_test {
 namespace {
 
 constexpr MeasureOptions kFewFrames{.repeats = 7, .seconds = 0.001, .warm_up_seconds = 0};
@@ -282,4 +282,4 @@ TEST(BenchComparison, NamesTheFaultySide) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::measure_test

@@ -8,7 +8,7 @@
 
 #include "perf/bench/drawn_workload.h"
 
-namespace tessera::bench {
+namespace tessera::bench::operation_workloads_test {
 namespace {
 
 TEST(BenchOperations, HasExpectedEffectOnThePicture) {
@@ -33,4 +33,4 @@ TEST(BenchOperations, ComparesWithTheTeapotWithoutOperation) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::operation_workloads_test

@@ -13,7 +13,7 @@
 #include "perf/prices/price_file.h"
 #include "perf/prices/price_pairs.h"
 
-namespace tessera::bench {
+namespace tessera::bench::prices_test {
 namespace {
 
 using testing::HasSubstr;
@@ -177,4 +177,4 @@ TEST(PriceCheck, SummarizesErrorsAndOrder) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::prices_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace tessera::bench {
+namespace tessera::bench::report_test {
 namespace {
 
 const Row kTimed{.name = "timed", .threads = 2, .frames = 3, .ms = {.median = 2}, .work = {.pixels = 4000}};
@@ -116,4 +116,4 @@ TEST(BenchReport, CsvRepeatsTheMachineInEachRow) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::report_test

@@ -8,7 +8,7 @@
 
 #include "engine/program/threads/thread_limit.h"
 
-namespace tessera::bench {
+namespace tessera::bench::scaling_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -218,4 +218,4 @@ TEST(BenchScaling, LimitsSpeedByMemoryBandwidth) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::scaling_test

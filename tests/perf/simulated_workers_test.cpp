@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tessera::bench {
+namespace tessera::bench::simulated_workers_test {
 namespace {
 
 struct Calls {
@@ -54,4 +54,4 @@ TEST(BenchSimulatedWorkers, RunsSeriallyOnAnotherThread) {
 TEST(BenchSimulatedWorkers, EndsWithoutHavingRun) { WorkersOnOtherCore(64, allowed_cores().back(), 0); }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::simulated_workers_test

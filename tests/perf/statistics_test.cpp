@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tessera::bench {
+namespace tessera::bench::statistics_test {
 namespace {
 
 TEST(BenchStatistics, SingleValueIsEveryStatistic) {
@@ -69,4 +69,4 @@ TEST(BenchStatistics, RatioCombinesBothIntervals) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::statistics_test

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace tessera::bench {
+namespace tessera::bench::traced_frame_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -89,4 +89,4 @@ TEST(BenchTracedFrame, WithoutTilesGivesEmptyHeatmap) {
 }
 
 }  // namespace
-}  // namespace tessera::bench
+}  // namespace tessera::bench::traced_frame_test

@@ -13,7 +13,7 @@
 
 #include <unistd.h>
 
-namespace tessera::test {
+namespace tessera::test::picture_models_test {
 using namespace program;
 namespace {
 
@@ -111,4 +111,4 @@ TEST_P(PictureModel, MatchesReferenceAndMesa) {
 INSTANTIATE_TEST_SUITE_P(Models, PictureModel, testing::ValuesIn(page_models()), test_name);
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::picture_models_test

@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tessera::test {
+namespace tessera::test::picture_test {
 namespace {
 
 std::vector<std::string> scene_files() {
@@ -101,4 +101,4 @@ TEST(PictureRule, AllowsNoFractionOfAPixel) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::picture_test

@@ -11,7 +11,7 @@
 #include "tests/raster/random_triangles.h"
 #include "tests/raster/tile_harness.h"
 
-namespace tessera::test {
+namespace tessera::test::binning_test {
 using namespace detail;
 namespace {
 
@@ -235,4 +235,4 @@ TEST(Binning, CullsAndCountsUnwantedFaces) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::binning_test

@@ -7,7 +7,7 @@
 
 #include "raster/bins.h"
 
-namespace tessera::test {
+namespace tessera::test::bins_test {
 using namespace detail;
 namespace {
 
@@ -160,4 +160,4 @@ TEST(BinBatches, StreamedBatchesAreAllRead) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::bins_test

@@ -13,7 +13,7 @@
 #include "tests/raster/random_triangles.h"
 #include "tests/raster/tile_harness.h"
 
-namespace tessera::test {
+namespace tessera::test::clip_test {
 using namespace detail;
 namespace {
 
@@ -274,4 +274,4 @@ TEST(Clip, CoversPixelsWhoseRayHitsTheTriangle) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::clip_test

@@ -13,7 +13,7 @@
 #include "tests/raster/random_triangles.h"
 #include "tests/raster/tile_harness.h"
 
-namespace tessera::test {
+namespace tessera::test::coverage_samples_test {
 using namespace detail;
 namespace {
 
@@ -100,4 +100,4 @@ TEST(CoverageOfSamples, MatchesExactIntegersInDrawsWithFragmentOps) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::coverage_samples_test

@@ -12,7 +12,7 @@
 #include "tests/raster/random_triangles.h"
 #include "tests/raster/tile_harness.h"
 
-namespace tessera::test {
+namespace tessera::test::coverage_test {
 namespace {
 
 // Sets the depth words of triangle i nearer than those of earlier triangles: all pass the depth test,
@@ -164,4 +164,4 @@ TEST(CoverageReference, SteppedAndSinglePixelsAgree) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::coverage_test

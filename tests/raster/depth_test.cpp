@@ -10,7 +10,7 @@
 #include "tests/raster/depth_cases.h"
 #include "tests/raster/tile_harness.h"
 
-namespace tessera::test {
+namespace tessera::test::depth_test {
 namespace {
 
 constexpr int kTile = 64;
@@ -263,4 +263,4 @@ TEST(RasterDepth, ComparisonFunctionsPassAsNamed) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::depth_test

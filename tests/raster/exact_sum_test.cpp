@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace tessera::test {
+namespace tessera::test::exact_sum_test {
 using namespace detail;
 namespace {
 
@@ -108,4 +108,4 @@ TEST(ExactSum, StaysNanAfterOverflow) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::exact_sum_test

@@ -5,7 +5,7 @@
 
 #include "raster/lane_packing.h"
 
-namespace tessera::detail {
+namespace tessera::detail::lane_packing_test {
 namespace {
 
 template <int kLanes>
@@ -32,4 +32,4 @@ TEST(LanePacking, IndexesEightLanes) { check_every_mask<8>(); }
 TEST(LanePacking, IndexesSixteenLanes) { check_every_mask<16>(); }
 
 }  // namespace
-}  // namespace tessera::detail
+}  // namespace tessera::detail::lane_packing_test

@@ -11,7 +11,7 @@
 #include "tests/raster/random_triangles.h"
 #include "tests/raster/tile_harness.h"
 
-namespace tessera::test {
+namespace tessera::test::line_steps_test {
 using namespace detail;
 namespace {
 
@@ -96,4 +96,4 @@ TEST(LineSteps, MatchLineWalk) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::line_steps_test

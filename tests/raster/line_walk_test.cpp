@@ -10,7 +10,7 @@
 #include "tests/raster/diamond_exit_rule.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::line_walk_test {
 using namespace detail;
 namespace {
 
@@ -153,4 +153,4 @@ TEST(LineWalk, WideLinesRepeatPixelsAlongMinorAxis) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::line_walk_test

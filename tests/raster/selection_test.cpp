@@ -8,7 +8,7 @@
 
 #include "tests/raster/selection_lanes.h"
 
-namespace tessera::test {
+namespace tessera::test::selection_test {
 namespace {
 
 TEST(MinMaxLanes, MatchScalarForNanAndSignedZero) {
@@ -35,4 +35,4 @@ TEST(MinMaxLanes, MatchScalarForNanAndSignedZero) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::selection_test

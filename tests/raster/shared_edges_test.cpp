@@ -13,7 +13,7 @@
 #include "tests/raster/random_triangles.h"
 #include "tests/raster/tile_harness.h"
 
-namespace tessera::test {
+namespace tessera::test::shared_edges_test {
 using namespace detail;
 namespace {
 
@@ -224,4 +224,4 @@ TEST(SharedEdges, VeryLargeTrianglesCoverTheFrameOnce) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::shared_edges_test

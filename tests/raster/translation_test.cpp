@@ -8,7 +8,7 @@
 #include "tests/raster/depth_cases.h"
 #include "tests/raster/tile_harness.h"
 
-namespace tessera::test {
+namespace tessera::test::translation_test {
 namespace {
 
 constexpr int kWindow = 64;  // width and height of the compared window, pixels
@@ -83,4 +83,4 @@ TEST(RasterTranslation, WholePixelMovesChangeNothing) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::translation_test

@@ -7,7 +7,7 @@
 
 #include "raster/vertex_bounds.h"
 
-namespace tessera::detail {
+namespace tessera::detail::vertex_bounds_test {
 namespace {
 
 TEST(VertexBounds, EqualThoseOfTheScalarTwin) {
@@ -44,4 +44,4 @@ TEST(VertexBounds, FindValuesThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace tessera::detail
+}  // namespace tessera::detail::vertex_bounds_test

@@ -15,7 +15,7 @@
 #include "tests/raster/depth_cases.h"
 #include "tests/raster/tile_harness.h"
 
-namespace tessera::test {
+namespace tessera::test::vertex_transform_test {
 using namespace detail;
 namespace {
 
@@ -417,4 +417,4 @@ TEST(EyeTransform, DividesByOneIfWIsZero) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::vertex_transform_test

@@ -11,7 +11,7 @@
 
 #include "tests/raster/random_triangles.h"
 
-namespace tessera::test {
+namespace tessera::test::window_polygon_test {
 using namespace detail;
 namespace {
 
@@ -156,4 +156,4 @@ TEST(WindowPolygon, CrossingEdgesLeaveNoHole) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::window_polygon_test

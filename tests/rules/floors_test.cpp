@@ -15,7 +15,7 @@
 
 #include "tests/rules/source_files.h"
 
-namespace tessera::rules {
+namespace tessera::rules::floors_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -231,4 +231,4 @@ TEST(Floors, ConstantsOfHeadersHaveUniqueNames) {
 }
 
 }  // namespace
-}  // namespace tessera::rules
+}  // namespace tessera::rules::floors_test

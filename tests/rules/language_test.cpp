@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -13,7 +14,7 @@
 
 #include "tests/rules/source_files.h"
 
-namespace tessera::rules {
+namespace tessera::rules::language_test {
 namespace {
 
 using testing::ElementsAre;
@@ -365,6 +366,19 @@ TEST(Language, SuiteNamesAreUnique) {
   report(found);
 }
 
+// Unity builds compile several test files as one, and their helpers share names such as kSide.
+TEST(Language, NamespacesOfTestFilesAreNamedAfterTheFiles) {
+  int files = 0;
+  for (const std::string& file : all_cpp_files()) {
+    if (!file.ends_with("_test.cpp")) continue;
+    const std::string namespace_end = "::" + std::filesystem::path(file).stem().string() + " {";
+    EXPECT_NE(text_of(file).find(namespace_end + "\n"), std::string::npos)
+        << file << ": expected a namespace whose name ends with \"" << namespace_end << '"';
+    ++files;
+  }
+  EXPECT_GT(files, 150);
+}
+
 TEST(Language, TestNamesStateTheBehaviour) {
   std::vector<Finding> found;
   for (const std::string& file : all_cpp_files())
@@ -378,4 +392,4 @@ TEST(Language, TestNamesStateTheBehaviour) {
 }
 
 }  // namespace
-}  // namespace tessera::rules
+}  // namespace tessera::rules::language_test

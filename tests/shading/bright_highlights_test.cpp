@@ -6,7 +6,7 @@
 
 #include "tests/shading/lighting_expectations.h"
 
-namespace tessera::test {
+namespace tessera::test::bright_highlights_test {
 namespace {
 
 /// Light and eye are in front of a tilted surface such that S.n (or R.E) is `cosine` and no other factor of
@@ -124,4 +124,4 @@ TEST(BrightHighlights, IndexHighlightsShowTheirTails) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::bright_highlights_test

@@ -10,7 +10,7 @@
 #include "tests/reference/fragment_ops.h"
 #include "tests/shading/fragment_ops_lanes.h"
 
-namespace tessera::detail {
+namespace tessera::detail::fragment_ops_test {
 namespace {
 
 // Numbers of enumerators.
@@ -218,4 +218,4 @@ TEST(FragmentOps, DitherPatternsMatchTheReference) {
 }
 
 }  // namespace
-}  // namespace tessera::detail
+}  // namespace tessera::detail::fragment_ops_test

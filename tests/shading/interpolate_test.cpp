@@ -17,7 +17,7 @@
 #include "tests/raster/tile_harness.h"
 #include "tests/shading/interpolate_lanes.h"
 
-namespace tessera::test {
+namespace tessera::test::interpolate_test {
 using namespace detail;
 namespace {
 
@@ -157,4 +157,4 @@ TEST(Interpolate, ConstantsStayExactlyConstant) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::interpolate_test

@@ -9,7 +9,7 @@
 #include "shading/light_reach.h"
 #include "shading/lighting_reference.h"
 
-namespace tessera::detail {
+namespace tessera::detail::light_reach_test {
 namespace {
 
 struct Rng {
@@ -181,4 +181,4 @@ TEST(LightReach, ProvesNothingForBoxesThatProductsCouldOverflow) {
 }
 
 }  // namespace
-}  // namespace tessera::detail
+}  // namespace tessera::detail::light_reach_test

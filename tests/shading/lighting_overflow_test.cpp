@@ -10,7 +10,7 @@
 #include "shading/lighting.h"
 #include "tests/shading/lighting_expectations.h"
 
-namespace tessera::test {
+namespace tessera::test::lighting_overflow_test {
 using namespace detail;
 namespace {
 
@@ -227,4 +227,4 @@ TEST(LightingOverflow, OverflowStaysWithinRange) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::lighting_overflow_test

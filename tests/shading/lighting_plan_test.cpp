@@ -10,7 +10,7 @@
 
 #include "shading/lighting.h"
 
-namespace tessera::test {
+namespace tessera::test::lighting_plan_test {
 using namespace detail;
 namespace {
 
@@ -329,4 +329,4 @@ TEST(Effects, NoLightsMakeAConstant) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::lighting_plan_test

@@ -7,7 +7,7 @@
 #include "shading/lighting.h"
 #include "tests/shading/lighting_expectations.h"
 
-namespace tessera::test {
+namespace tessera::test::lighting_special_cases_test {
 using namespace detail;
 namespace {
 
@@ -153,4 +153,4 @@ TEST(LightingSpecialCase, SmallExponentsKeepTinyCosines) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::lighting_special_cases_test

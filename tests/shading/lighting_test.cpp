@@ -14,7 +14,7 @@
 
 #include "tests/shading/lighting_expectations.h"
 
-namespace tessera::test {
+namespace tessera::test::lighting_test {
 using namespace detail;
 namespace {
 
@@ -271,4 +271,4 @@ TEST(LightingKernels, SharpHighlightsAreWithinAFewRoundingsOfTheFormula) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::lighting_test

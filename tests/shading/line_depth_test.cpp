@@ -12,7 +12,7 @@
 #include "tests/raster/tile_harness.h"
 #include "tests/shading/line_depth_lanes.h"
 
-namespace tessera::test {
+namespace tessera::test::line_depth_test {
 namespace {
 
 struct ExactCase {
@@ -79,4 +79,4 @@ TEST(LineDepth, MatchesAPointAtItsFirstVertex) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::line_depth_test

@@ -4,7 +4,7 @@
 
 #include "shading/tile_renderer.h"
 
-namespace tessera::test {
+namespace tessera::test::pixel_path_test {
 using namespace detail;
 namespace {
 
@@ -144,4 +144,4 @@ TEST(PixelPath, IsDescribedInOneLine) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::pixel_path_test

@@ -13,7 +13,7 @@
 #include "tests/raster/tile_harness.h"
 #include "tests/shading/power_lanes.h"
 
-namespace tessera::test {
+namespace tessera::test::power_test {
 using namespace detail;
 namespace {
 
@@ -180,4 +180,4 @@ TEST(Power, IsWithinItsErrorBounds) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::power_test

@@ -12,7 +12,7 @@
 #include "tests/raster/random_triangles.h"
 #include "tests/raster/tile_harness.h"
 
-namespace tessera::test {
+namespace tessera::test::samples_test {
 using namespace detail;
 namespace {
 
@@ -177,4 +177,4 @@ INSTANTIATE_TEST_SUITE_P(Formats, SampledColors,
                          });
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::samples_test

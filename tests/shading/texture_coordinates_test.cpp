@@ -13,7 +13,7 @@
 #include "tests/raster/tile_harness.h"
 #include "tests/shading/texture_lanes.h"
 
-namespace tessera::test {
+namespace tessera::test::texture_coordinates_test {
 using namespace detail;
 namespace {
 
@@ -149,4 +149,4 @@ TEST(TextureCoordinates, ConstantCoordinatesHaveNoSlope) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::texture_coordinates_test

@@ -8,7 +8,7 @@
 #include "tests/raster/tile_harness.h"
 #include "tests/shading/texture_lanes.h"
 
-namespace tessera::test {
+namespace tessera::test::texture_env_test {
 namespace {
 
 struct Rgba {
@@ -69,4 +69,4 @@ TEST(TextureEnv, MatchesTheTableAndTheScalarTwin) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::texture_env_test

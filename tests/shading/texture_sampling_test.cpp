@@ -13,7 +13,7 @@
 #include "tests/raster/tile_harness.h"
 #include "tests/shading/texture_lanes.h"
 
-namespace tessera::test {
+namespace tessera::test::texture_sampling_test {
 namespace {
 
 // Minification filters: nearest_linear is GL_NEAREST_MIPMAP_LINEAR.
@@ -317,4 +317,4 @@ TEST(TextureSampling, OneColorStaysExact) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::texture_sampling_test

@@ -18,7 +18,7 @@
 #include "tests/raster/tile_harness.h"
 #include "tests/shading/lighting_cases.h"
 
-namespace tessera::test {
+namespace tessera::test::tile_renderer_test {
 using namespace detail;
 namespace {
 
@@ -375,4 +375,4 @@ TEST(TileRenderer, MasksSelectBitsOfTheUnmaskedResult) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::tile_renderer_test

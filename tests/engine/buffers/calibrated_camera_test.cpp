@@ -8,7 +8,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::calibrated_camera_test {
 namespace {
 
 using namespace test;
@@ -112,4 +112,4 @@ TEST(CalibratedCameraErrors, NameTheFieldOutOfRange) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::calibrated_camera_test

@@ -5,7 +5,7 @@
 
 #include "tests/engine/frame/api_random_frame.h"
 
-namespace tessera {
+namespace tessera::frame_buffer_images_test {
 namespace {
 
 using namespace test;
@@ -160,4 +160,4 @@ TEST(FrameBufferImages, FirstRowIsTheTopRow) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::frame_buffer_images_test

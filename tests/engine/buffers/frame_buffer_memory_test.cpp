@@ -4,7 +4,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::frame_buffer_memory_test {
 namespace {
 
 using namespace test;
@@ -221,4 +221,4 @@ TEST_F(FrameBufferMemory, UnkeptStencilNeedNotExist) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::frame_buffer_memory_test

@@ -7,7 +7,7 @@
 
 #include "tests/engine/frame/api_random_frame.h"
 
-namespace tessera {
+namespace tessera::frame_buffer_planes_test {
 namespace {
 
 using namespace test;
@@ -208,4 +208,4 @@ TEST(FrameBufferColors, IndexBufferStoresTheNearestEntryAndShowsUnsetEntriesBlac
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::frame_buffer_planes_test

@@ -5,7 +5,7 @@
 
 #include "tests/engine/frame/api_random_frame.h"
 
-namespace tessera {
+namespace tessera::image_region_test {
 namespace {
 
 using namespace test;
@@ -80,4 +80,4 @@ TEST(ImageRegion, NegativeSizeIsAnError) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::image_region_test

@@ -3,7 +3,7 @@
 
 #include "tests/engine/frame/index_pictures.h"
 
-namespace tessera {
+namespace tessera::set_palette_test {
 namespace {
 
 using namespace test;
@@ -79,4 +79,4 @@ TEST(SetPalette, ErrorsChangeNothing) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::set_palette_test

@@ -9,7 +9,7 @@
 
 #include "tests/engine/frame/api_random_frame.h"
 
-namespace tessera {
+namespace tessera::accumulation_test {
 namespace {
 
 using namespace test;
@@ -398,4 +398,4 @@ TEST(FrameAccumulation, InvalidUsesAreRefused) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::accumulation_test

@@ -7,7 +7,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera::test {
+namespace tessera::test::alpha_test_test {
 namespace {
 
 const FrameBufferFormat kFormat{.width = 40, .height = 24, .stencil_bits = 8};
@@ -145,4 +145,4 @@ TEST(AlphaTestWithoutColor, TestsTheMaterialOfEachFace) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::alpha_test_test

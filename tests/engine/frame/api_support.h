@@ -33,6 +33,10 @@ class Random {
   std::uint64_t state_;
 };
 
+inline std::int64_t below(Random& random, std::int64_t n) {
+  return static_cast<std::int64_t>(random.next()) % n;
+}
+
 /// An axis-parallel rectangle of two triangles, counter-clockwise in the coordinates of the current camera.
 inline MeshData rectangle(float x0, float y0, float x1, float y1, float z = 0) {
   MeshData mesh;

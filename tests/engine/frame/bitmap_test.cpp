@@ -10,7 +10,7 @@
 
 #include "tests/engine/frame/pixel_support.h"
 
-namespace tessera {
+namespace tessera::bitmap_test {
 namespace {
 
 using namespace test;
@@ -308,4 +308,4 @@ TEST(Bitmap, InvalidBitmapsAreRefused) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::bitmap_test

@@ -7,7 +7,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera::test {
+namespace tessera::test::bright_lights_test {
 namespace {
 
 struct Bright {
@@ -72,4 +72,4 @@ TEST(BrightLights, ShowTheEdgesOfTheirHighlights) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::bright_lights_test

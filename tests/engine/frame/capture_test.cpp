@@ -9,7 +9,7 @@
 #include "engine/program/scene/builtin_mesh.h"
 #include "tests/engine/frame/api_random_frame.h"
 
-namespace tessera {
+namespace tessera::capture_test {
 using namespace program;
 namespace {
 
@@ -239,4 +239,4 @@ TEST(Capture, HoldsNothingWhereAClearIsDithered) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::capture_test

@@ -5,7 +5,7 @@
 
 #include "tests/engine/frame/index_pictures.h"
 
-namespace tessera {
+namespace tessera::color_index_test {
 namespace {
 
 using namespace test;
@@ -273,4 +273,4 @@ TEST(ColorIndex, ExplainNamesUnusedInputs) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::color_index_test

@@ -22,7 +22,7 @@
 #include "tests/engine/frame/api_random_frame.h"
 #include "tests/engine/frame/api_random_operations.h"
 
-namespace tessera {
+namespace tessera::determinism_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -384,4 +384,4 @@ TEST(PictureHashes, EveryRandomFrameMatchesItsHash) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::determinism_test

@@ -6,7 +6,7 @@
 
 #include "tests/engine/frame/api_random_frame.h"
 
-namespace tessera {
+namespace tessera::frame_masks_test {
 namespace {
 
 using namespace test;
@@ -238,4 +238,4 @@ TEST(Sizes, OddSizesAreDrawnCompletely) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::frame_masks_test

@@ -11,7 +11,7 @@
 #include "engine/program/threads/thread_limit.h"
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::frame_normals_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -297,4 +297,4 @@ TEST(TwoSidedLighting, LightsBacksWithTheirMaterialAndTheNegatedNormal) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::frame_normals_test

@@ -9,7 +9,7 @@
 
 #include "tests/engine/frame/api_random_frame.h"
 
-namespace tessera {
+namespace tessera::frame_odd_data_test {
 namespace {
 
 using namespace test;
@@ -281,4 +281,4 @@ TEST(FrameStatistics, BelongToOneFrame) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::frame_odd_data_test

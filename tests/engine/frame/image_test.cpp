@@ -10,7 +10,7 @@
 
 #include "tests/engine/frame/pixel_support.h"
 
-namespace tessera {
+namespace tessera::image_test {
 namespace {
 
 using namespace test;
@@ -361,4 +361,4 @@ TEST(Image, InvalidImagesAreRefused) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::image_test

@@ -3,7 +3,7 @@
 
 #include "tests/engine/frame/index_pictures.h"
 
-namespace tessera {
+namespace tessera::index_lighting_test {
 namespace {
 
 using namespace test;
@@ -110,4 +110,4 @@ TEST(IndexLighting, ConstantFacesUseTheirMaterials) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::index_lighting_test

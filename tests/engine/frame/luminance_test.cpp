@@ -6,7 +6,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera::test {
+namespace tessera::test::luminance_test {
 namespace {
 
 std::vector<std::uint32_t> drawn(const MeshData& mesh, const DrawState& state, int bits) {
@@ -57,4 +57,4 @@ TEST(Luminance, IsComputedFromClampedColors) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::luminance_test

@@ -11,7 +11,7 @@
 #include "tests/raster/diamond_exit_rule.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera {
+namespace tessera::many_points_lines_test {
 namespace {
 
 using namespace test;
@@ -36,12 +36,11 @@ struct Elements {
   }
 };
 
-std::int32_t below(Random& random, std::int32_t n) {
-  return static_cast<std::int32_t>(random.next() % static_cast<std::uint32_t>(n));
-}
-std::int32_t about(Random& random, std::int32_t n) { return below(random, 2 * n + 1) - n; }
+std::int32_t int_below(Random& random, std::int32_t n) { return static_cast<std::int32_t>(below(random, n)); }
+std::int32_t about(Random& random, std::int32_t n) { return int_below(random, 2 * n + 1) - n; }
 LinePoint somewhere(Random& random) {
-  return {below(random, (kWidth + 64) * 256) - 32 * 256, below(random, (kHeight + 64) * 256) - 32 * 256};
+  return {int_below(random, (kWidth + 64) * 256) - 32 * 256,
+          int_below(random, (kHeight + 64) * 256) - 32 * 256};
 }
 int count() { return long_tests() ? 1'000'000 : 20'000; }
 
@@ -86,9 +85,9 @@ Elements random_lines(std::uint64_t seed) {
     if (i % 4 == 0) {
       // From distance 1 inside the plane to 1, 3 or 1/3 outside.
       static constexpr float kOuterDepth[] = {0, 4.0f, 2.0f, 1.25f};  // by quarters
-      const int quarters = 1 + below(random, 3);
-      const int end = below(random, 2);
-      const int side = below(random, 2) != 0 ? 1 : -1;
+      const int quarters = 1 + int_below(random, 3);
+      const int end = int_below(random, 2);
+      const int side = int_below(random, 2) != 0 ? 1 : -1;
       z[end] = static_cast<float>(side) * kOuterDepth[quarters];
       z[1 - end] = quarters == 3 ? static_cast<float>(side) * 0.25f : 0.0f;
       const LinePoint inner = end == 1 ? a : b;
@@ -150,4 +149,4 @@ TEST(ManyPoints, CoverPixelsByTheRule) { expect_by_the_rules(random_points(71));
 TEST(ManyLines, CoverPixelsByTheRule) { expect_by_the_rules(random_lines(72)); }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::many_points_lines_test

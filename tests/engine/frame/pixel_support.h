@@ -7,10 +7,6 @@
 
 namespace tessera::test {
 
-inline std::int64_t below(Random& random, std::int64_t n) {
-  return static_cast<std::int64_t>(random.next()) % n;
-}
-
 /// The colour whose packed 24-bit value is `word`.
 inline Color color_of(std::uint32_t word) {
   return {static_cast<float>(word >> 16 & 255) / 255.0f, static_cast<float>(word >> 8 & 255) / 255.0f,

@@ -13,7 +13,7 @@
 #include "tests/engine/frame/api_support.h"
 #include "tests/raster/diamond_exit_rule.h"
 
-namespace tessera {
+namespace tessera::points_lines_test {
 namespace {
 
 using namespace test;
@@ -26,8 +26,6 @@ constexpr int kWidth = 256;
 constexpr int kHeight = 128;
 
 FrameBufferFormat format_of(int samples) { return {.width = kWidth, .height = kHeight, .samples = samples}; }
-
-std::int64_t below(Random& random, std::int64_t n) { return static_cast<std::int64_t>(random.next()) % n; }
 
 // In 1/256 pixel, y down from the top row; up to `beyond` pixels outside the window.
 LinePoint random_point(Random& random, int beyond) {
@@ -443,4 +441,4 @@ TEST(PointsAndLines, NonFiniteOnesAreDropped) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::points_lines_test

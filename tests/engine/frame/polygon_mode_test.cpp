@@ -9,7 +9,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::polygon_mode_test {
 namespace {
 
 using namespace test;
@@ -318,4 +318,4 @@ TEST(PolygonMode, CapturesThePolygonAndItsDraw) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::polygon_mode_test

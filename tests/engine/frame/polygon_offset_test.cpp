@@ -11,7 +11,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::polygon_offset_test {
 namespace {
 
 using namespace test;
@@ -411,4 +411,4 @@ TEST(PolygonOffset, SaturatesAtTheDepthRange) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::polygon_offset_test

@@ -10,7 +10,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::polygon_primitives_test {
 namespace {
 
 using namespace test;
@@ -394,4 +394,4 @@ TEST(PolygonPrimitives, ErrorsNameTheVertexCount) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::polygon_primitives_test

@@ -10,7 +10,7 @@
 #include "tests/engine/frame/api_support.h"
 #include "tests/random_scenes/random_scene.h"
 
-namespace tessera {
+namespace tessera::random_scenes_test {
 namespace {
 
 using namespace program;
@@ -125,4 +125,4 @@ TEST(RandomScenes, KeepTheirBitsUnderCaps) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::random_scenes_test

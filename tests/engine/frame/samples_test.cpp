@@ -9,7 +9,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::samples_test {
 namespace {
 
 using namespace test;
@@ -88,7 +88,6 @@ std::uint32_t mean_level(int sum, int samples) {
   return static_cast<std::uint32_t>(std::floor(static_cast<double>(sum) / samples + 0.5));
 }
 
-std::int64_t below(Random& random, std::int64_t n) { return static_cast<std::int64_t>(random.next()) % n; }
 Point random_point(Random& random) {
   return {below(random, kWidth * kScale), below(random, kHeight * kScale)};
 }
@@ -313,4 +312,4 @@ TEST(FrameSamplesMemory, TakeNoMemoryBetweenFrames) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::samples_test

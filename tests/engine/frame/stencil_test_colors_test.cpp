@@ -6,7 +6,7 @@
 
 #include "tests/engine/frame/pixel_support.h"
 
-namespace tessera {
+namespace tessera::stencil_test_colors_test {
 namespace {
 
 using namespace test;
@@ -126,4 +126,4 @@ TEST(StencilTestColors, MatchThoseWithoutTheTest) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::stencil_test_colors_test

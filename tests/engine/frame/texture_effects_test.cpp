@@ -8,7 +8,7 @@
 
 #include "tests/engine/frame/texture_support.h"
 
-namespace tessera {
+namespace tessera::texture_effects_test {
 namespace {
 
 using namespace test;
@@ -266,4 +266,4 @@ TEST(TextureEffects, CapturesAndCountsFollowTheAlphaTest) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::texture_effects_test

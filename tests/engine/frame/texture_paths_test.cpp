@@ -7,7 +7,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::texture_paths_test {
 namespace {
 
 using namespace test;
@@ -93,4 +93,4 @@ TEST(TexturePaths, ImmediatePathMatchesThePathWithOperations) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::texture_paths_test

@@ -9,7 +9,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::texture_points_lines_test {
 namespace {
 
 using namespace test;
@@ -239,4 +239,4 @@ TEST(TexturedOutlines, MatchTexturedLinesAndPoints) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::texture_points_lines_test

@@ -9,7 +9,7 @@
 #include "engine/record/texture_state.h"
 #include "tests/engine/frame/texture_support.h"
 
-namespace tessera {
+namespace tessera::texture_test {
 using namespace detail;
 namespace {
 
@@ -202,4 +202,4 @@ TEST(Texture, OneRowIgnoresT) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::texture_test

@@ -9,7 +9,7 @@
 #include "engine/program/threads/thread_limit.h"
 #include "tests/engine/plan/attack_scene.h"
 
-namespace tessera {
+namespace tessera::elision_attacks_test {
 namespace {
 
 using namespace test;
@@ -97,4 +97,4 @@ TEST(ElisionAttackScenes, AreAtLeast200Scenes) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::elision_attacks_test

@@ -10,7 +10,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::elision_test {
 namespace {
 
 using namespace test;
@@ -362,4 +362,4 @@ TEST(Elision, NamesTheFieldThatDecides) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::elision_test

@@ -10,7 +10,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::frame_elision_test {
 namespace {
 
 using namespace test;
@@ -244,4 +244,4 @@ TEST(FrameElision, LeavesOutDrawsBeyondOneSide) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::frame_elision_test

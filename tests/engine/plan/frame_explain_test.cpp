@@ -6,7 +6,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::frame_explain_test {
 
 void PrintTo(const EffectNote& note, std::ostream* out) {
   *out << code(note.effect) << (note.active ? ": active, " : ": skipped, ") << code(note.reason);
@@ -340,4 +340,4 @@ TEST(Explain, CodesAreDistinctKebabCase) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::frame_explain_test

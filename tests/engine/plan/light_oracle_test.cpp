@@ -19,7 +19,7 @@
 #include "tests/engine/plan/light_oracle.h"
 #include "tests/random_scenes/random_scene.h"
 
-namespace tessera {
+namespace tessera::light_oracle_test {
 namespace {
 
 using namespace test;
@@ -163,4 +163,4 @@ TEST(LightOracle, FindsNoContributionOfLightsLeftOut) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::light_oracle_test

@@ -3,7 +3,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::work_counts_test {
 namespace {
 
 using namespace test;
@@ -134,4 +134,4 @@ TEST(WorkCountsOfFrames, HaveDroppedTrianglesAndOutlines) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::work_counts_test

@@ -6,7 +6,7 @@
 
 #include "tests/engine/program/bench_program.h"
 
-namespace tessera {
+namespace tessera::bench_program_errors_test {
 namespace {
 
 class BenchProgramErrors : public BenchProgram {};
@@ -135,5 +135,5 @@ TEST_F(BenchProgramErrors, RejectsInvalidArguments) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::bench_program_errors_test
 #endif

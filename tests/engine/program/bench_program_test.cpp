@@ -13,7 +13,7 @@
 
 #include "tests/engine/program/bench_program.h"
 
-namespace tessera {
+namespace tessera::bench_program_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -337,5 +337,5 @@ TEST_F(BenchProgram, ReadsThreadCountFromTheEnvironment) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::bench_program_test
 #endif

@@ -6,7 +6,7 @@
 
 #include "tests/engine/program/program.h"
 
-namespace tessera {
+namespace tessera::explain_command_test {
 namespace {
 
 class ExplainCommand : public Program {};
@@ -120,5 +120,5 @@ TEST_F(ExplainCommand, ElisionKeepsThePicture) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::explain_command_test
 #endif

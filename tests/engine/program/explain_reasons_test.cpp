@@ -12,7 +12,7 @@
 #include "tests/engine/program/program.h"
 #include "tests/engine/program/reason_cases.h"
 
-namespace tessera {
+namespace tessera::explain_reasons_test {
 namespace {
 
 using namespace test;
@@ -116,5 +116,5 @@ TEST(ExplainReasonCases, CoverEveryReason) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::explain_reasons_test
 #endif

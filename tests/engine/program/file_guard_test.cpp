@@ -5,7 +5,7 @@
 
 #include "tests/engine/program/program.h"
 
-namespace tessera {
+namespace tessera::file_guard_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,5 +68,5 @@ TEST_F(RenderOutput, RefusesToOverwriteReference) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::file_guard_test
 #endif

@@ -9,7 +9,7 @@
 #include "engine/program/scene/model_scene.h"
 #include "tests/pictures/model_list.h"
 
-namespace tessera {
+namespace tessera::model_page_test {
 using namespace program;
 namespace {
 
@@ -52,4 +52,4 @@ TEST(ModelPage, MatchesCommittedPicture) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::model_page_test

@@ -11,7 +11,7 @@
 
 #include "tests/engine/program/program.h"
 
-namespace tessera {
+namespace tessera::price_program_test {
 namespace {
 
 using testing::HasSubstr;
@@ -69,5 +69,5 @@ TEST_F(PriceProgram, MeasuresKeepsAndChecks) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::price_program_test
 #endif

@@ -13,7 +13,7 @@
 
 #include "tests/engine/program/program.h"
 
-namespace tessera {
+namespace tessera::program_limits_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,5 +105,5 @@ TEST_F(ProgramLimits, CtrlCLeavesFinishedPicturesComplete) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::program_limits_test
 #endif

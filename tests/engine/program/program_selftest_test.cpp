@@ -13,7 +13,7 @@
 
 #include "tests/engine/program/program.h"
 
-namespace tessera {
+namespace tessera::program_selftest_test {
 namespace {
 
 class ProgramSelftest : public Program {};
@@ -93,5 +93,5 @@ TEST_F(ProgramSelftest, SelfTestReportsWrongHashes) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::program_selftest_test
 #endif

@@ -19,7 +19,7 @@
 
 #include "tests/engine/program/program.h"
 
-namespace tessera {
+namespace tessera::program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -395,5 +395,5 @@ TEST_F(Program, PrintsMachineFormatsManualAndCompletions) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::program_test
 #endif

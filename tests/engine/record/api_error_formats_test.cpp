@@ -9,7 +9,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::api_error_formats_test {
 namespace {
 
 using namespace test;
@@ -208,4 +208,4 @@ TEST(NamedMaterials, UnknownNamesAreNotAnError) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::api_error_formats_test

@@ -7,7 +7,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::api_error_frames_test {
 namespace {
 
 using namespace test;
@@ -403,4 +403,4 @@ TEST(ErrorsOfFrames, NameADrawThatCannotBeExplained) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::api_error_frames_test

@@ -7,7 +7,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::api_error_images_test {
 namespace {
 
 using namespace test;
@@ -125,4 +125,4 @@ TEST(ErrorsOfReading, NameMissingBuffersAndPlanes) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::api_error_images_test

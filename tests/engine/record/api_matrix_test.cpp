@@ -7,7 +7,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::api_matrix_test {
 namespace {
 
 using namespace test;
@@ -233,4 +233,4 @@ TEST(Cameras, MapDistanceToDepth) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::api_matrix_test

@@ -7,7 +7,7 @@
 
 #include "tests/engine/frame/api_random_frame.h"
 
-namespace tessera {
+namespace tessera::caller_memory_test {
 namespace {
 
 using namespace test;
@@ -95,4 +95,4 @@ TEST(CallerMemory, SizeAndAddressAreChecked) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::caller_memory_test

@@ -10,7 +10,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::error_codes_test {
 namespace {
 
 using namespace test;
@@ -103,4 +103,4 @@ TEST(ErrorCodes, AMessageAloneIsAnInvalidArgument) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::error_codes_test

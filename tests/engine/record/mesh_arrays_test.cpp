@@ -11,7 +11,7 @@
 #include "engine/program/threads/thread_limit.h"
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::mesh_arrays_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -286,4 +286,4 @@ TEST(MeshIndices, LongArraysAreCheckedByTheRenderersWorkers) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::mesh_arrays_test

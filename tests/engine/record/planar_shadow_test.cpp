@@ -9,7 +9,7 @@
 
 #include "tests/engine/frame/pixel_support.h"
 
-namespace tessera {
+namespace tessera::planar_shadow_test {
 namespace {
 
 using namespace test;
@@ -262,4 +262,4 @@ TEST(PlanarShadow, DegenerateShadowsAreRefused) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::planar_shadow_test

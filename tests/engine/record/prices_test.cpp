@@ -7,7 +7,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::prices_test {
 namespace {
 
 constexpr PriceItem item_at(std::size_t i) { return static_cast<PriceItem>(i); }
@@ -75,4 +75,4 @@ TEST(Prices, MixTrianglesWithoutLosingAny) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::prices_test

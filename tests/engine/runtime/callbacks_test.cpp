@@ -18,7 +18,7 @@
 #include "tests/engine/frame/api_random_frame.h"
 #include "tests/engine/runtime/test_executors.h"
 
-namespace tessera {
+namespace tessera::callbacks_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -366,4 +366,4 @@ TEST(Log, NamesTheKernelsAndWarnsOfDroppedTriangles) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::callbacks_test

@@ -12,7 +12,7 @@
 #include "tests/engine/frame/api_random_operations.h"
 #include "tests/engine/stages/bin_overflow_scene.h"
 
-namespace tessera {
+namespace tessera::draw_measurements_test {
 namespace {
 
 using namespace program;
@@ -233,4 +233,4 @@ TEST(DrawMeasurements, AreThoseOfTheLastFrame) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::draw_measurements_test

@@ -11,7 +11,7 @@
 #include "tests/engine/frame/api_random_frame.h"
 #include "tests/engine/runtime/test_executors.h"
 
-namespace tessera {
+namespace tessera::executor_test {
 namespace {
 
 using namespace test;
@@ -174,4 +174,4 @@ TEST(Executors, FaultyExecutorsAreNamed) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::executor_test

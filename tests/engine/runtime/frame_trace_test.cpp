@@ -12,7 +12,7 @@
 #include "tests/engine/frame/api_support.h"
 #include "tests/engine/runtime/test_executors.h"
 
-namespace tessera {
+namespace tessera::frame_trace_test {
 using namespace detail;
 namespace {
 
@@ -247,4 +247,4 @@ TEST(FrameTrace, ExceptionsOfTheListenerReachTheCaller) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::frame_trace_test

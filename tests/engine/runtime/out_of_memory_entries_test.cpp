@@ -15,7 +15,7 @@
 #include "tests/engine/stages/bin_overflow_scene.h"
 #include "tests/raster/random_triangles.h"
 
-namespace tessera {
+namespace tessera::out_of_memory_entries_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -273,6 +273,6 @@ TEST(OutOfMemoryAnywhere, ConstructionAndReadingLeaveObjectsUnchanged) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::out_of_memory_entries_test
 
 #endif

@@ -13,7 +13,7 @@
 #include "tests/engine/frame/api_random_frame.h"
 #include "tests/engine/frame/api_random_operations.h"
 
-namespace tessera {
+namespace tessera::out_of_memory_outputs_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -140,6 +140,6 @@ TEST(OutOfMemoryOutputs, GrowingRenderersProduceAllOutputsOfOperations) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::out_of_memory_outputs_test
 
 #endif

@@ -49,7 +49,7 @@ void operator delete(void* memory, std::size_t) noexcept { release(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
 
-namespace tessera {
+namespace tessera::out_of_memory_test {
 namespace {
 
 using namespace test;
@@ -133,6 +133,6 @@ TEST(OutOfMemory, RecordingAndReadingThrowError) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::out_of_memory_test
 
 #endif

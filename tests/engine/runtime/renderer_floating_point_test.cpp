@@ -15,7 +15,7 @@
 #include "engine/runtime/worker_pool.h"
 #include "tests/engine/frame/api_random_frame.h"
 
-namespace tessera {
+namespace tessera::renderer_floating_point_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -201,6 +201,6 @@ TEST(FloatingPointModeOfTheCaller, IsRestoredIfAFrameFails) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::renderer_floating_point_test
 
 #endif

@@ -11,7 +11,7 @@
 #include <unistd.h>
 #endif
 
-namespace tessera {
+namespace tessera::renderer_reuse_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -210,4 +210,4 @@ TEST(RendererMemory, DoesNotGrowOverEqualFrames) {
 #endif
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::renderer_reuse_test

@@ -14,7 +14,7 @@
 #include "tests/engine/runtime/test_executors.h"
 #include "tests/engine/stages/bin_overflow_scene.h"
 
-namespace tessera {
+namespace tessera::steady_frames_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -129,6 +129,6 @@ TEST(SteadyFrames, AllocateNothingOnAnyWorker) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::steady_frames_test
 
 #endif

@@ -22,7 +22,7 @@
 #include <immintrin.h>
 #endif
 
-namespace tessera {
+namespace tessera::worker_pool_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -319,4 +319,4 @@ TEST(WorkerPool, FloatingPointModeEndsWithItsScope) {
 #endif
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::worker_pool_test

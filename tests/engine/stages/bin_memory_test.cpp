@@ -14,7 +14,7 @@
 #include "tests/engine/runtime/test_executors.h"
 #include "tests/engine/stages/bin_overflow_scene.h"
 
-namespace tessera {
+namespace tessera::bin_memory_test {
 using namespace detail;
 using namespace program;
 namespace {
@@ -231,4 +231,4 @@ TEST(BinMemory, ProgressRisesToOneOverAllPasses) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::bin_memory_test

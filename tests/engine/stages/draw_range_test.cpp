@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tessera {
+namespace tessera::draw_range_test {
 using namespace detail;
 namespace {
 
@@ -33,4 +33,4 @@ TEST(DrawRanges, CoverEachDrawInOrder) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::draw_range_test

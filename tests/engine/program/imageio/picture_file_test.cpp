@@ -14,7 +14,7 @@
 #include "engine/program/imageio/picture.h"
 #include "engine/program/import/child_process.h"
 
-namespace tessera {
+namespace tessera::picture_file_test {
 using namespace program;
 namespace {
 
@@ -153,4 +153,4 @@ TEST_F(PictureFile, ReportsReadOnlyFolderWithoutLoss) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::picture_file_test

@@ -10,7 +10,7 @@
 #include "engine/program/import/child_process.h"
 #include "engine/program/import/model_bytes.h"
 
-namespace tessera {
+namespace tessera::child_process_test {
 using namespace program;
 namespace {
 
@@ -149,4 +149,4 @@ TEST(ModelBytes, AllocatesNoMoreThanTheInputHolds) {
 #endif
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::child_process_test

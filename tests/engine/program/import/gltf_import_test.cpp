@@ -11,7 +11,7 @@
 #include "engine/program/import/model.h"
 #include "engine/program/scene/model_scene.h"
 
-namespace tessera {
+namespace tessera::gltf_import_test {
 using namespace program;
 namespace {
 
@@ -215,4 +215,4 @@ TEST_F(GltfImport, MultipliesVertexColorsAndKeepsWindingOfMirroredNodes) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::gltf_import_test

@@ -3,7 +3,7 @@
 
 #include "engine/program/import/gltf_view.h"
 
-namespace tessera {
+namespace tessera::gltf_view_test {
 using namespace program;
 namespace {
 
@@ -82,4 +82,4 @@ TEST(GltfView, RejectsPerspectiveAnglesOutsideZeroToPi) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::gltf_view_test

@@ -17,7 +17,7 @@
 #include "engine/program/scene/file_extension.h"
 #include "engine/program/scene/model_scene.h"
 
-namespace tessera {
+namespace tessera::model_import_test {
 using namespace program;
 namespace {
 
@@ -204,4 +204,4 @@ TEST_F(ModelImport, RendersOrRejectsEveryModelInOneLine) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::model_import_test

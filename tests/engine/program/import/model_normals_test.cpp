@@ -6,7 +6,7 @@
 
 #include "engine/program/import/model_normals.h"
 
-namespace tessera {
+namespace tessera::model_normals_test {
 using namespace program;
 namespace {
 
@@ -107,4 +107,4 @@ TEST(WindByNormals, ReversesTrianglesAgainstTheirNormals) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::model_normals_test

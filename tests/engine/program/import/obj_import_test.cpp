@@ -10,7 +10,7 @@
 #include "engine/program/import/model.h"
 #include "engine/program/scene/model_scene.h"
 
-namespace tessera {
+namespace tessera::obj_import_test {
 using namespace program;
 namespace {
 
@@ -339,4 +339,4 @@ TEST_F(ObjImport, ReadsStanfordBunnyIfInstalled) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::obj_import_test

@@ -6,7 +6,7 @@
 
 #include "tests/engine/program/scene/bad_scene.h"
 
-namespace tessera {
+namespace tessera::bad_frame_test {
 namespace {
 
 using namespace test;
@@ -313,4 +313,4 @@ TEST(BadSceneFrame, AcceptsValidCombinations) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::bad_frame_test

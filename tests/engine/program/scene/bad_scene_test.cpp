@@ -6,7 +6,7 @@
 
 #include "tests/engine/program/scene/bad_scene.h"
 
-namespace tessera {
+namespace tessera::bad_scene_test {
 namespace {
 
 using namespace test;
@@ -260,4 +260,4 @@ TEST(BadScene, ErrorsNameMissingFilesAndFolders) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::bad_scene_test

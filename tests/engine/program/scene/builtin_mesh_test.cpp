@@ -10,7 +10,7 @@
 
 #include "engine/program/scene/builtin_mesh.h"
 
-namespace tessera {
+namespace tessera::builtin_mesh_test {
 using namespace program;
 namespace {
 
@@ -184,4 +184,4 @@ TEST(BuiltinMesh, RejectsUnknownNamesAndDetails) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::builtin_mesh_test

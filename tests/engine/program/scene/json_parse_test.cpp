@@ -5,7 +5,7 @@
 
 #include "engine/program/scene/json_value.h"
 
-namespace tessera::program::json {
+namespace tessera::program::json::json_parse_test {
 namespace {
 
 TEST(JsonParse, ListsOfObjectsParseInLinearTime) {
@@ -41,4 +41,4 @@ TEST(JsonParse, KeepsTypesAndOrder) {
 }
 
 }  // namespace
-}  // namespace tessera::program::json
+}  // namespace tessera::program::json::json_parse_test

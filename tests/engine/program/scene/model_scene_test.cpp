@@ -3,7 +3,7 @@
 
 #include "engine/program/scene/model_scene.h"
 
-namespace tessera {
+namespace tessera::model_scene_test {
 using namespace program;
 namespace {
 
@@ -22,4 +22,4 @@ TEST(ModelScene, IgnoresCamerasWithOverflowingProjection) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::model_scene_test

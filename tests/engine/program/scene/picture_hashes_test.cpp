@@ -4,7 +4,7 @@
 #include "engine/program/scene/picture_hashes.h"
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::picture_hashes_test {
 using namespace program;
 namespace {
 
@@ -53,4 +53,4 @@ TEST(PictureHashLists, RejectMalformedLines) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::picture_hashes_test

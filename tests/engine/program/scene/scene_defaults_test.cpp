@@ -6,7 +6,7 @@
 
 #include "engine/program/scene/scene.h"
 
-namespace tessera {
+namespace tessera::scene_defaults_test {
 using namespace program;
 namespace {
 
@@ -240,4 +240,4 @@ TEST(SceneOverrides, RejectsPaletteThatExceedsColorBits) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::scene_defaults_test

@@ -10,7 +10,7 @@
 #include "engine/program/scene/scene.h"
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::scene_pixels_test {
 using namespace program;
 namespace {
 
@@ -126,4 +126,4 @@ TEST(ScenePixels, ShadowDefaultsAndCurrentLights) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::scene_pixels_test

@@ -10,7 +10,7 @@
 #include "engine/program/scene/scene.h"
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::scene_texture_test {
 using namespace program;
 namespace {
 
@@ -148,4 +148,4 @@ TEST_F(SceneTexture, BuiltInMeshesHaveTextureCoordinates) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::scene_texture_test
