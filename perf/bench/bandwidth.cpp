@@ -74,7 +74,10 @@ BandwidthKernel bandwidth_kernel_for(const FrameWork& work, int threads, std::ui
 
 double measure_bandwidth(Roofline roofline, int threads, std::uint64_t bytes, double seconds) {
   constexpr int kRuns = 10;
-  BandwidthKernel kernel(roofline, threads, bytes, std::uint64_t{512} << 20);
+  constexpr double kMaxMoved = 512 << 20;         // bytes per run
+  constexpr double kMovedPerSecond = 8ull << 30;  // fewer bytes per run if `seconds` is short
+  const auto moved = static_cast<std::uint64_t>(std::min(kMaxMoved, seconds * kMovedPerSecond));
+  BandwidthKernel kernel(roofline, threads, bytes, moved);
   kernel.run();  // starts the threads
   std::vector<double> rates;
   const Clock::time_point first = Clock::now();

@@ -125,7 +125,8 @@ void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options,
   std::vector<std::size_t> turns;
   for (std::size_t k = 0; k < runners.size(); ++k) {
     current_row = runners[k].row;
-    const int max_turns = turns_for(options.seconds, warm_up(runners[k], options.warm_up_seconds));
+    const double warm_up_seconds = std::min(options.warm_up_seconds, options.seconds);
+    const int max_turns = turns_for(options.seconds, warm_up(runners[k], warm_up_seconds));
     if (!runners[k].roofline) frames = std::min(frames, options.repeats > 0 ? options.repeats : max_turns);
     else  // rooflines follow all workloads, so `frames` is final
       turns.insert(turns.end(), static_cast<std::size_t>(std::min(frames, max_turns)), k);

@@ -16,9 +16,9 @@ namespace tessera::bench {
 inline constexpr const char* kOutOfMemory = "out of memory";
 
 struct MeasureOptions {
-  int repeats = 0;     ///< frames per row; 0: as many as fit in `seconds`, at least 15
-  double seconds = 1;  ///< per row; rooflines use it even if `repeats` is set
-  double warm_up_seconds = 0.2;
+  int repeats = 0;                  ///< frames per row; 0: as many as fit in `seconds`, at least 15
+  double seconds = 1;               ///< per row; rooflines use it even if `repeats` is set
+  double warm_up_seconds = 0.2;     ///< per row and roofline, at most `seconds`
   std::uint32_t seed = 1;           ///< for the order of turns
   bool measures_rooflines = false;  ///< also time each row's roofline, in turns with its frames
 };
