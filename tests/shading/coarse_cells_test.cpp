@@ -13,7 +13,7 @@
 #include "tests/raster/tile_harness.h"
 #include "tests/shading/coarse_cells_lanes.h"
 
-namespace tessera::test {
+namespace tessera::test::coarse_cells_test {
 using namespace detail;
 namespace {
 
@@ -73,4 +73,4 @@ TEST(CoarseCells, AreLitInsideOfTheTriangle) {
 }
 
 }  // namespace
-}  // namespace tessera::test
+}  // namespace tessera::test::coarse_cells_test

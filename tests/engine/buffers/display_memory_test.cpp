@@ -11,7 +11,7 @@
 #include "engine/tessera/display_mode.hpp"
 #include "engine/tessera/tessera.hpp"
 
-namespace tessera {
+namespace tessera::display_memory_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -164,4 +164,4 @@ TEST(DisplayMemory, RefusesOtherSizes) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::display_memory_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace tessera {
+namespace tessera::display_mode_test {
 namespace {
 
 using testing::HasSubstr;
@@ -238,4 +238,4 @@ TEST(DisplayModes, RefuseValuesThatDoNotFitTogether) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::display_mode_test

@@ -8,7 +8,7 @@
 
 #include "engine/tessera/display_mode.hpp"
 
-namespace tessera {
+namespace tessera::screen_geometry_test {
 namespace {
 
 TEST(ScreenGeometry, ChoosesTheStandardModesOfTheTable) {
@@ -61,4 +61,4 @@ TEST(ScreenGeometry, RefusesLengthsOfZero) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::screen_geometry_test

@@ -14,7 +14,7 @@
 #include "tests/engine/frame/api_support.h"
 #include "tests/engine/frame/texture_support.h"
 
-namespace tessera {
+namespace tessera::coarse_shading_test {
 namespace {
 
 using namespace test;
@@ -298,4 +298,4 @@ TEST(CoarseShading, StaysWithinTheColorsOfTheVertices) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::coarse_shading_test

@@ -9,7 +9,7 @@
 
 #include "tests/engine/frame/api_support.h"
 
-namespace tessera {
+namespace tessera::hidden_triangles_test {
 namespace {
 
 using namespace test;
@@ -202,4 +202,4 @@ TEST(HiddenTriangles, DoNotChangeFragmentCounts) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::hidden_triangles_test

@@ -12,7 +12,7 @@
 #include "tests/engine/frame/api_support.h"
 #include "tests/engine/frame/texture_support.h"
 
-namespace tessera {
+namespace tessera::quality_test {
 namespace {
 
 using namespace test;
@@ -318,4 +318,4 @@ TEST(Quality, NormalsAreUsedAsTheyAreWithoutRenormalization) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::quality_test

@@ -19,7 +19,7 @@
 #include "tests/engine/plan/light_oracle.h"
 #include "tests/random_scenes/random_scene.h"
 
-namespace tessera {
+namespace tessera::light_threshold_test {
 namespace {
 
 using namespace test;
@@ -258,4 +258,4 @@ TEST(LightThreshold, KeepsLightsWhereColorsAreExtrapolated) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::light_threshold_test

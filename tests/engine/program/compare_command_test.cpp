@@ -13,7 +13,7 @@
 #include "tests/engine/program/compare/known_flip_pairs.h"
 #include "tests/engine/program/program.h"
 
-namespace tessera {
+namespace tessera::compare_command_test {
 namespace {
 
 using program::known_flip_pairs;
@@ -189,5 +189,5 @@ TEST_F(CompareCommand, ReportsWrongUsageInOneLineAndExitsWith2) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::compare_command_test
 #endif

@@ -8,7 +8,7 @@
 
 #include "tests/engine/program/program.h"
 
-namespace tessera {
+namespace tessera::display_mode_program_test {
 namespace {
 
 class DisplayModeProgram : public Program {};
@@ -155,5 +155,5 @@ TEST_F(DisplayModeProgram, PixelAspectKeepsRoundThingsRound) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::display_mode_program_test
 #endif

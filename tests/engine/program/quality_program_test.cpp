@@ -6,7 +6,7 @@
 #include "tests/engine/frame/api_support.h"
 #include "tests/engine/program/program.h"
 
-namespace tessera {
+namespace tessera::quality_program_test {
 namespace {
 
 using namespace program;
@@ -104,4 +104,4 @@ TEST_F(QualityOption, RefusesUnknownKeysAndValues) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::quality_program_test

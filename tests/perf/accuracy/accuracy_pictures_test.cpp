@@ -9,7 +9,7 @@
 #include "perf/accuracy/result_files.h"
 #include "tests/reference/image_file.h"
 
-namespace tessera::accuracy {
+namespace tessera::accuracy::accuracy_pictures_test {
 namespace {
 
 program::Picture noise(int width, int height) {
@@ -82,4 +82,4 @@ TEST(AccuracyPictures, DifferencesAreAmplifiedByTheLargestPowerOfTwoThatFits) {
 }
 
 }  // namespace
-}  // namespace tessera::accuracy
+}  // namespace tessera::accuracy::accuracy_pictures_test

@@ -11,7 +11,7 @@
 #include "perf/accuracy/reference_pictures.h"
 #include "perf/accuracy/setting_frames.h"
 
-namespace tessera::accuracy {
+namespace tessera::accuracy::accuracy_scenes_test {
 namespace {
 
 using ::testing::AllOf;
@@ -172,4 +172,4 @@ TEST(AccuracyReferences, StoredPictureIsTheRoundedUnroundedOne) {
 }
 
 }  // namespace
-}  // namespace tessera::accuracy
+}  // namespace tessera::accuracy::accuracy_scenes_test

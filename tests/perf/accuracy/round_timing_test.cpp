@@ -9,7 +9,7 @@
 
 #include "perf/accuracy/processor_clock.h"
 
-namespace tessera::accuracy {
+namespace tessera::accuracy::round_timing_test {
 namespace {
 
 using ::testing::AllOf;
@@ -85,4 +85,4 @@ TEST(RoundTiming, ProcessorTimeGrowsWithWork) {
 }
 
 }  // namespace
-}  // namespace tessera::accuracy
+}  // namespace tessera::accuracy::round_timing_test

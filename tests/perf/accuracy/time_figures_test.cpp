@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace tessera::accuracy {
+namespace tessera::accuracy::time_figures_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -65,4 +65,4 @@ TEST(TimeFigures, PointsWithTouchingIntervalsStayOnTheFront) {
 }
 
 }  // namespace
-}  // namespace tessera::accuracy
+}  // namespace tessera::accuracy::time_figures_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace tessera::program {
+namespace tessera::program::exact_functions_test {
 namespace {
 
 /// Calls check(x) for numbers spread evenly over exponents from 2^min to 2^max.
@@ -55,4 +55,4 @@ TEST(ExactFunctions, ExponentialIsWithinItsErrors) {
 }
 
 }  // namespace
-}  // namespace tessera::program
+}  // namespace tessera::program::exact_functions_test

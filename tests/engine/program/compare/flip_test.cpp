@@ -17,7 +17,7 @@
 #include "tests/engine/program/compare/flip_oracle.h"
 #include "tests/engine/program/compare/known_flip_pairs.h"
 
-namespace tessera::program {
+namespace tessera::program::flip_test {
 namespace {
 
 /// std::mt19937 returns the same numbers everywhere; distributions of the standard library do not.
@@ -165,4 +165,4 @@ TEST(FlipFilters, HaveTheRadiiOfTheirFormulas) {
 }
 
 }  // namespace
-}  // namespace tessera::program
+}  // namespace tessera::program::flip_test

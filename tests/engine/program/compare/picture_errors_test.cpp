@@ -13,7 +13,7 @@
 #include "engine/tessera/tessera.hpp"
 #include "tests/engine/program/compare/known_flip_pairs.h"
 
-namespace tessera::program {
+namespace tessera::program::picture_errors_test {
 namespace {
 
 RgbPicture noise(int width, int height, unsigned seed, int levels) {
@@ -111,4 +111,4 @@ TEST(UnroundedErrors, AreThoseOfRoundingForASmoothRamp) {
 }
 
 }  // namespace
-}  // namespace tessera::program
+}  // namespace tessera::program::picture_errors_test

@@ -18,7 +18,7 @@
 #include "engine/tessera/display_mode.hpp"
 #include "engine/tessera/tessera.hpp"
 
-namespace tessera::program {
+namespace tessera::program::screen_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -131,4 +131,4 @@ TEST_F(ScreenFile, PcxIsReadByFfmpeg) {
 }
 
 }  // namespace
-}  // namespace tessera::program
+}  // namespace tessera::program::screen_file_test

@@ -11,7 +11,7 @@
 #include "engine/program/scene/scene.h"
 #include "engine/program/scene/scene_mode.h"
 
-namespace tessera::program {
+namespace tessera::program::scene_mode_test {
 namespace {
 
 using testing::HasSubstr;
@@ -160,4 +160,4 @@ TEST(ReducePicture, RoundsAndDithersComponents) {
 }
 
 }  // namespace
-}  // namespace tessera::program
+}  // namespace tessera::program::scene_mode_test

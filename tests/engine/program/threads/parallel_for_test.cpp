@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace tessera::program {
+namespace tessera::program::parallel_for_test {
 namespace {
 
 TEST(ParallelFor, CallsEachTaskOnceFromAtMostTheGivenThreads) {
@@ -39,4 +39,4 @@ TEST(ParallelFor, ThrowsTheExceptionOfATask) {
 }
 
 }  // namespace
-}  // namespace tessera::program
+}  // namespace tessera::program::parallel_for_test
