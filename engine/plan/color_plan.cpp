@@ -74,7 +74,7 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& la
   const glm::dmat4 view = to_glm(draw.scene_state->camera.view);
   plan.lights.clear();
   for (const Light& light : draw.scene_state->lights) plan.lights.push_back(eye_light(light, view));
-  // What is proven decides which lights are below the threshold, with and without `elide`: same picture.
+  // Proofs decide which lights are below the threshold, with and without `elide`: same picture.
   std::optional<ContributionBounds> bounds;
   if (quality.light_threshold > 0) bounds.emplace(plan, draw, options.sampled, options.isa);
   if (options.elide || bounds) prove_light_reach(plan, draw, options.isa);

@@ -29,7 +29,7 @@ std::uint64_t threshold_scene_count() { return std::getenv("TESSERA_LONG") != nu
 
 struct ThresholdCounts {
   int left_out = 0;          ///< pairs of a draw's face and a light
-  double largest_share = 0;  ///< of the threshold
+  double largest_share = 0;  ///< sum of contributions / threshold
 };
 
 /// Lights that are below the threshold, per face.
