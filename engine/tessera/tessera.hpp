@@ -32,6 +32,7 @@
 #pragma once
 
 #include "commands.hpp"
+#include "display_mode.hpp"
 #include "executor.hpp"
 #include "export.h"
 #include "frame.hpp"
@@ -42,6 +43,7 @@
 #include "quality.hpp"
 #include "renderer.hpp"
 #include "scene.hpp"
+#include "screen_geometry.hpp"
 #include "state.hpp"
 #include "texture.hpp"
 #include "types.hpp"

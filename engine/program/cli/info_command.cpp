@@ -46,7 +46,7 @@ std::string formats_text() {
   } catch (const Error& missing) {
     text += "          " + std::string(missing.what()) + "\n";
   }
-  return text;
+  return text + "dumps     .iff .ilbm .lbm .pcx, any other name: memory of the display mode\n";
 }
 
 }  // namespace tessera::program::cli

@@ -16,6 +16,8 @@
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/scene_input.h"
 #include "engine/program/compare/picture_errors.h"
+#include "engine/program/imageio/atomic_file.h"
+#include "engine/program/imageio/pbm.h"
 #include "engine/program/scene/file_extension.h"
 #include "engine/program/scene/scene_mode.h"
 #include "engine/program/threads/thread_limit.h"
@@ -79,6 +81,11 @@ void write_planes(const SceneBuffers& buffers, const fs::path& folder) {
 bool is_indexed_png(const FrameBufferFormat& format, const std::string& path) {
   const int max_bits = format.color_mode == ColorMode::index ? 8 : 2;
   return format.color_bits <= max_bits && lower_case_extension(path) == ".png";
+}
+
+/// Frames of 1 bit may be written as PBM.
+bool is_one_bit_pbm(const FrameBufferFormat& format, const std::string& path) {
+  return format.color_bits == 1 && lower_case_extension(path) == ".pbm";
 }
 
 IndexedPicture indexed_picture(const FrameBuffer& buffer) {
@@ -169,10 +176,13 @@ void check_outputs(const RenderRequest& request, const std::string& path) {
 }
 
 void write_frame(const RenderRequest& request, const Scene& scene, const Picture& picture,
-                 const SceneBuffers& buffers, bool is_indexed, const std::string& file, int frame) {
+                 const SceneBuffers& buffers, const std::string& file, int frame) {
   const auto path_of = [&](const std::string& name) { return frame_path(name, frame, request.frames); };
   const int compression = request.output.compression;
-  if (is_indexed) write_indexed_png(indexed_picture(buffers.shown()), file, compression);
+  const FrameBufferFormat& format = buffers.shown().format();
+  if (is_indexed_png(format, file)) write_indexed_png(indexed_picture(buffers.shown()), file, compression);
+  else if (is_one_bit_pbm(format, file))
+    write_file_atomically(file, encode_pbm(screen_picture(buffers.shown(), {})));
   else write_output(picture, file, compression);
   if (!request.planes_folder.empty()) write_planes(buffers, path_of(request.planes_folder));
   if (!request.dump.empty()) write_memory_dump(buffers.shown(), *scene.mode, path_of(request.dump));
@@ -222,8 +232,9 @@ int render(RenderRequest request) {
     SceneBuffers buffers(scene);
     Frame frame(buffers.drawn, renderer);
     Picture picture(scene.framebuffer.width, scene.framebuffer.height);
-    const bool is_indexed = is_indexed_png(buffers.shown().format(), path);
-    const bool reads_colors = !scene.reduced && (is_indexed || !request.dump.empty());
+    const FrameBufferFormat& format = buffers.shown().format();
+    const bool reads_colors = !scene.reduced && (is_indexed_png(format, path) ||
+                                                 is_one_bit_pbm(format, path) || !request.dump.empty());
     if (request.explain && f == 0) {
       record(scene, frame);
       std::cout << explanation_text(scene, frame);
@@ -240,7 +251,7 @@ int render(RenderRequest request) {
     progress.clear();
     const auto write_start = std::chrono::steady_clock::now();
     const std::string file = frame_path(path, f, request.frames);
-    write_frame(request, scene, picture, buffers, is_indexed, file, f);
+    write_frame(request, scene, picture, buffers, file, f);
     run.write_ms += milliseconds_since(write_start);
     for (std::size_t i = 0; i < run.buffer_bytes.size(); ++i)
       run.buffer_bytes[i] = buffers.drawn.allocated_bytes(kBuffers[i]);

@@ -69,7 +69,7 @@ std::string encode_ppm(const Picture& picture) {
   return file;
 }
 
-std::vector<std::string> builtin_extensions() { return {".pbm (planes)", ".pfm", ".pgm", ".ppm", ".raw"}; }
+std::vector<std::string> builtin_extensions() { return {".pbm (1 bit)", ".pfm", ".pgm", ".ppm", ".raw"}; }
 
 namespace {
 
@@ -89,7 +89,7 @@ std::string encode_picture(const Picture& picture, const std::string& path, int 
     const std::string extension = lower_case_extension(path);
     if (extension.empty()) throw Error("the name has no extension, expected one such as .png or .ppm");
     if (extension == ".pbm")
-      throw Error("a .pbm file holds one plane; write a .png or .ppm, or the planes with --planes");
+      throw Error("a .pbm file holds 1 bit per pixel; write a .png or .ppm, or the planes with --planes");
     if (extension == ".ppm") return encode_ppm(picture);
     if (extension == ".pgm") return pgm(picture);
     if (extension == ".pfm") return pfm(picture);

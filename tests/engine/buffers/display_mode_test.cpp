@@ -211,7 +211,7 @@ TEST(DisplayModes, CheckPalettes) {
               HasSubstr("have 4 bits; the nearest colour is (0, 0, 0)"));
   EXPECT_THAT(checked("vga13h", {{4 / 255.0f, 8 / 255.0f, 12 / 255.0f}}), IsEmpty());
   EXPECT_THAT(checked("vga13h", {{51 / 255.0f, 0, 0}}),
-              HasSubstr("have 6 bits; the nearest colour is (53, 0, 0)"));
+              HasSubstr("have 6 bits; the nearest colour is (49, 0, 0)"));
   EXPECT_THAT(checked("64x64x8", {{1 / 255.0f, 0, 0}}), IsEmpty());
   EXPECT_THAT(checked("cga", display_mode("cga").palette), IsEmpty());
   EXPECT_THAT(checked("cga", display_mode("cga:background=1").palette), HasSubstr("fixed"));

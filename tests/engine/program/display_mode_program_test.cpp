@@ -18,7 +18,7 @@ TEST_F(DisplayModeProgram, ListsDisplayModes) {
   EXPECT_EQ(list.code, 0) << list.err;
   for (const char* part : {"hercules    720x348x1      29:45   18.816   50.854      32768",
                            "8514a       1024x768x8       1:1   35.522   43.479i    786432",
-                           "vga13h      320x200x8        5:6   31.469   70.086       64000", "mda"})
+                           "vga13h      320x200x8        5:6   31.469   70.086      64000", "mda"})
     EXPECT_TRUE(contains(list.out, part)) << part << "\n" << list.out;
   const Result json = run("modes --json");
   EXPECT_EQ(json.code, 0);
@@ -110,6 +110,24 @@ TEST_F(DisplayModeProgram, RendersIntoTheMemoryOfADisplayMode) {
   EXPECT_EQ(content("a.iff"), content("a.ILBM"));
   EXPECT_EQ(content("a.iff"), content("a.lbm"));
   EXPECT_EQ(content("a.pcx").substr(0, 4), std::string("\x0a\x05\x01\x01"));
+}
+
+TEST_F(DisplayModeProgram, WritesFramesOfOneBitAsPbm) {
+  ASSERT_EQ(run("render --mode 75x40x1 -o a.pbm --dump a.bin").code, 0);
+  const std::string pbm = content("a.pbm"), memory = content("a.bin");
+  ASSERT_TRUE(pbm.starts_with("P4\n75 40\n"));
+  const std::size_t header = pbm.size() - memory.size();
+  std::size_t black = 0;
+  for (std::size_t y = 0; y < 40; ++y)
+    for (std::size_t x = 0; x < 75; ++x) {
+      const std::size_t at = 10 * y + x / 8;
+      const int pixel = pbm[header + at] >> (7 - x % 8) & 1;  // 1 is black
+      ASSERT_NE(pixel, memory[at] >> (7 - x % 8) & 1) << x << " " << y;
+      black += pixel == 1 ? 1 : 0;
+    }
+  EXPECT_GT(black, 0u);
+  EXPECT_LT(black, 75u * 40);
+  EXPECT_TRUE(contains(run("render --mode cga -o b.pbm").err, "holds 1 bit per pixel"));
 }
 
 TEST_F(DisplayModeProgram, ReducesPicturesToADisplayMode) {

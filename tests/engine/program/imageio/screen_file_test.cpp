@@ -130,5 +130,26 @@ TEST_F(ScreenFile, PcxIsReadByFfmpeg) {
   }
 }
 
+/// Two bytes of a file, the lower one first.
+std::size_t word_at(const std::string& file, std::size_t at) {
+  return static_cast<std::uint8_t>(file[at]) + std::size_t{256} * static_cast<std::uint8_t>(file[at + 1]);
+}
+
+TEST(ScreenFileBytes, RowsAndChunksHaveEvenLengths) {
+  for (int bits : {1, 3, 4, 8, 24}) {
+    const DisplayMode mode = display_mode("51x7x" + std::to_string(bits) + ":aspect=29:45");
+    const ScreenPicture screen = screen_picture(drawn_buffer(mode), mode.pixel_aspect);
+    const std::size_t pcx_row = bits == 1 || bits == 4 ? 8 : 52;  // 51 bits or bytes, padded
+    EXPECT_EQ(word_at(encode_pcx(screen), 66), pcx_row) << bits;
+    const std::string ilbm = encode_ilbm(screen);
+    EXPECT_EQ(ilbm.size() % 2, 0u) << bits;
+    std::size_t form_bytes = 0;
+    for (std::size_t i = 4; i < 8; ++i) form_bytes = 256 * form_bytes + static_cast<std::uint8_t>(ilbm[i]);
+    EXPECT_EQ(form_bytes + 8, ilbm.size()) << bits;
+    EXPECT_EQ(ilbm[34], 29) << "aspect in BMHD";
+    EXPECT_EQ(ilbm[35], 45);
+  }
+}
+
 }  // namespace
 }  // namespace tessera::program::screen_file_test
