@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "tests/reference/primitives.h"
@@ -98,7 +99,9 @@ LightAtPoint LightOracle::at(const LitPoint& point) const {
   const double base = model_.specular == SpecularModel::kBlinn
                           ? dot(normalize(to_light + to_eye), point.normal)
                           : dot(2 * facing * point.normal - to_light, to_eye);
-  const double highlight = std::pow(std::max(base, 0.0), shininess_);
+  // Finite also for long normals, so that its product with black is 0.
+  const double highlight =
+      std::min(std::pow(std::max(base, 0.0), shininess_), std::numeric_limits<double>::max());
   result.diffuse_and_specular = strength * (facing * diffuse_ + highlight * specular_);
   return result;
 }
