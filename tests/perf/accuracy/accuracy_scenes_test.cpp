@@ -98,7 +98,7 @@ TEST(AccuracyScenes, SettingsThatChangeNothingDrawTheDefaultPicture) {
   AccuracyInput input = input_named("matt");
   EXPECT_EQ(drawn(input, "depth_32").rgba, drawn(input, kDefaultSetting).rgba);
   EXPECT_NE(drawn(input, "half").rgba, drawn(input, kDefaultSetting).rgba);
-  EXPECT_EQ(input.scene.quality, Quality{}) << "the scene must be as before";
+  EXPECT_EQ(input.scene.framebuffer.width, kSceneWidth) << "the scene must be as before";
 }
 
 TEST(AccuracyScenes, NamesOfSettingsAreUnique) {
