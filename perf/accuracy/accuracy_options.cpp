@@ -1,5 +1,7 @@
 #include "perf/accuracy/accuracy_options.h"
 
+#include <sstream>
+
 namespace tessera::accuracy {
 
 void add_options(CLI::App& program, AccuracyOptions& options) {
@@ -24,11 +26,15 @@ void add_options(CLI::App& program, AccuracyOptions& options) {
       ->option_text("N")
       ->check(CLI::Range(3, 10000));
   program
-      .add_option("--scenes", options.scenes,
-                  "built-in scenes, by name or prefix; none: only FILES; default: all")
-      ->option_text("NAME[,NAME...]")
-      ->delimiter(',')
-      ->take_all();
+      .add_option_function<std::string>(
+          "--scenes",
+          [&options](const std::string& text) {
+            options.scenes.clear();
+            std::istringstream names(text);
+            for (std::string name; std::getline(names, name, ',');) options.scenes.push_back(name);
+          },
+          "built-in scenes, by name or prefix; none: only FILES; default: all")
+      ->option_text("NAME[,NAME...]");
   program
       .add_option_function<std::string>(
           "--isa",

@@ -2,6 +2,8 @@
 // they should.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -61,6 +63,26 @@ std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
   return name;
 }
 INSTANTIATE_TEST_SUITE_P(BuiltIn, AccuracySceneTest, ::testing::ValuesIn(scene_names()), test_name);
+
+TEST(AccuracyScenes, DefaultOfAModelIsAtMostOneLevelFromTheReference) {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / "accuracy pyramid.obj";
+  std::ofstream(path) << "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv 0 1.5 0\n"
+                         "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 4 3 2 1\n";
+  AccuracyOptions options;
+  options.scenes = {"none"};
+  options.files = {path.string(), path.string()};
+  std::vector<AccuracyInput> inputs = accuracy_inputs(options);
+  std::filesystem::remove(path);
+  ASSERT_EQ(inputs.size(), 2u);
+  EXPECT_EQ(inputs[0].name, "accuracy-pyramid");
+  EXPECT_EQ(inputs[1].name, "accuracy-pyramid-2");
+  const ReferencePicture reference = render_point_reference(inputs[0].reference);
+  const program::Picture picture = drawn(inputs[0], kDefaultSetting);
+  EXPECT_LE(
+      program::picture_errors(program::pixels_of(picture), program::pixels_of(reference.stored)).largest, 1);
+  const auto [low, high] = std::minmax_element(picture.rgba.begin(), picture.rgba.end());
+  EXPECT_GT(*high - *low, 100) << "the model must be visible";
+}
 
 TEST(AccuracyScenes, DefaultErrsByRoundingAloneWhereColorsVarySmoothly) {
   for (const char* name : {"wall-8", "teapots-near", "lights-1", "lights-8", "matt", "glossy"}) {
