@@ -287,13 +287,15 @@ MeshData triangle_with_normals(const double (&normals)[3][3]) {
 
 TEST(Quality, NormalsAreUsedAsTheyAreWithoutRenormalization) {
   const double normals[3][3] = {{0.9, 0, 0.3}, {-0.8, 0.1, 0.5}, {0, 0.7, 0.7}};
-  const MeshData mesh = triangle_with_normals(normals);
+  MeshData mesh = triangle_with_normals(normals);
+  for (float& c : mesh.positions) c /= 2;
   Light light;  // along +z: the colour is the z of the normal
   light.specular = {0, 0, 0, 1};
   for (const bool normalize : {false, true}) {
     DrawState state;
     state.shading = Shading::phong;
     state.normalize = normalize;
+    state.transform = scale(2, 2, 2);  // halves normals that keep their length
     state.material.ambient = {0, 0, 0, 1};
     state.material.diffuse = {1, 1, 1, 1};
     const auto levels = drawn_levels(mesh, state, {.renormalize = false}, {light});
@@ -302,7 +304,7 @@ TEST(Quality, NormalsAreUsedAsTheyAreWithoutRenormalization) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double length = std::sqrt(normals[k][0] * normals[k][0] + normals[k][1] * normals[k][1] +
                                       normals[k][2] * normals[k][2]);
-      z[k] = normals[k][2] / (normalize ? length : 1);
+      z[k] = normals[k][2] / (normalize ? length : 2);
     }
     int largest = 0;
     for (int row = 0; row < kSide; ++row)
