@@ -60,6 +60,7 @@ struct SceneBuffers {
   }
   /// Holds the colours of the picture.
   const FrameBuffer& shown() const { return reduced ? *reduced : drawn; }
+  const FrameBuffer& holding(Buffer which) const { return which == Buffer::color ? shown() : drawn; }
 
   FrameBuffer drawn;
   std::optional<FrameBuffer> reduced;
@@ -70,7 +71,7 @@ void write_planes(const SceneBuffers& buffers, const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error) throw Error("cannot make the folder \"" + folder.string() + "\": " + error.message());
   for (const Buffer which : kBuffers) {
-    const FrameBuffer& buffer = which == Buffer::color ? buffers.shown() : buffers.drawn;
+    const FrameBuffer& buffer = buffers.holding(which);
     for (int k = 0; k < buffer.plane_count(which); ++k)
       write_plane(buffer.plane(which, k), plane_path(folder, which, k));
   }
@@ -254,7 +255,7 @@ int render(RenderRequest request) {
     write_frame(request, scene, picture, buffers, file, f);
     run.write_ms += milliseconds_since(write_start);
     for (std::size_t i = 0; i < run.buffer_bytes.size(); ++i)
-      run.buffer_bytes[i] = buffers.drawn.allocated_bytes(kBuffers[i]);
+      run.buffer_bytes[i] = buffers.holding(kBuffers[i]).allocated_bytes(kBuffers[i]);
     if (request.output.path.empty()) std::cerr << "tessera: wrote " << printable(file) << "\n";
     if (request.stats != StatsFormat::none && is_last)
       run.frame.fragments = count_fragments(scene, run.options);

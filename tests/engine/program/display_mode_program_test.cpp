@@ -105,7 +105,7 @@ TEST_F(DisplayModeProgram, RendersIntoTheMemoryOfADisplayMode) {
   EXPECT_TRUE(exists("planes/color_01.pbm"));
   EXPECT_FALSE(exists("planes/color_02.pbm"));
   for (const char* name : {"a.iff", "a.ILBM", "a.lbm", "a.pcx"})
-    ASSERT_EQ(run(cga + "-o cga.png --dump " + name).code, 0) << name;
+    ASSERT_EQ(run(cga + "-o again.ppm --dump " + name).code, 0) << name;
   EXPECT_EQ(content("a.iff").substr(8, 8), "ILBMBMHD");
   EXPECT_EQ(content("a.iff"), content("a.ILBM"));
   EXPECT_EQ(content("a.iff"), content("a.lbm"));
