@@ -112,9 +112,9 @@ SceneText lights(int count) {
   Json scene = empty_scene(camera({0, 1.6, 4.4}, {0, -0.1, 0}, 40));
   scene["lights"] = Json::array();
   for (int i = 0; i < count; ++i) {
-    const double turn = 2 * std::numbers::pi * (0.1 + 0.381966 * i);  // golden angle
+    const double turn = 2 * std::numbers::pi * (0.2 + 0.381966 * i);  // golden angle
     const double radius = 0.8 + 2.2 * std::sqrt((i + 0.5) / count);
-    const double strength = 1.6 / std::sqrt(static_cast<double>(count));
+    const double strength = 3 * std::pow(count, -0.7);
     const auto channel = [&](double phase) { return strength * (0.6 + 0.4 * std::cos(turn * 3 + phase)); };
     scene["lights"].push_back(point_light(radius * std::cos(turn), 1.1 + 0.2 * (i % 5),
                                           radius * std::sin(turn),
@@ -234,10 +234,12 @@ SceneText steep_depth() {
 }
 
 SceneText bunny() {
-  Json scene = empty_scene(camera({0, 0.12, 0.32}, {-0.017, 0.105, 0}, 36, 0.05, 2));
+  Json scene = empty_scene(camera({1.2, 0.9, 3.4}, {0, 0, 0}, 36));
+  scene["lights"] = {point_light(1.5, 3, 3, {1, 0.98, 0.94, 1}, {1, 0, 0.01})};
   scene["materials"]["clay"] = material({0.6, 0.42, 0.3, 1}, 0.35, 25);
   scene["meshes"]["bunny"] = {{"file", kBunny}};
   add_draw(scene, "bunny", "clay", Json::array());
+  add_room(scene, 12, -1, -2.5, 10);
   return text("bunny", "the Stanford bunny, 69,666 triangles", scene);
 }
 
