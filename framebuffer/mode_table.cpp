@@ -1,7 +1,5 @@
 #include "framebuffer/mode_table.h"
 
-#include <algorithm>
-
 #include "framebuffer/check.h"
 #include "framebuffer/format.h"
 

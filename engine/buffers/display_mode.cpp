@@ -1,8 +1,6 @@
 // The table of display modes, their frame buffers, palettes and memory.
 #include "engine/tessera/display_mode.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <string>
 

@@ -1,6 +1,5 @@
 #include "engine/program/imageio/ilbm.h"
 
-#include <algorithm>
 #include <string_view>
 
 namespace tessera::program {

@@ -1,6 +1,5 @@
 #include "engine/program/imageio/pcx.h"
 
-#include <algorithm>
 #include <string_view>
 
 namespace tessera::program {

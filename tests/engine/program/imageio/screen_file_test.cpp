@@ -1,6 +1,7 @@
 // ILBM and PCX files of every display mode, decoded by netpbm and by ffmpeg.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
