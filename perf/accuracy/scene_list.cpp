@@ -129,9 +129,11 @@ SceneText lights(int count) {
   add_draw(scene, "sphere", "ivory", {{{"translate", {1.7, -0.2, -0.6}}}, {{"scale", {0.5, 0.5, 0.5}}}});
   add_room(scene, 24, -0.75, -3, 9);
   const std::string number = std::to_string(count);
-  return text("lights-" + number,
-              number + (count == 1 ? " point light" : " point lights") + " on a torus, spheres and a ground",
-              scene);
+  SceneText result = text(
+      "lights-" + number,
+      number + (count == 1 ? " point light" : " point lights") + " on a torus, spheres and a ground", scene);
+  if (count == 64) result.settings = SettingChoice::steps;
+  return result;
 }
 
 SceneText spots() {
@@ -240,7 +242,9 @@ SceneText bunny() {
   scene["meshes"]["bunny"] = {{"file", kBunny}};
   add_draw(scene, "bunny", "clay", Json::array());
   add_room(scene, 12, -1, -2.5, 10);
-  return text("bunny", "the Stanford bunny, 69,666 triangles", scene);
+  SceneText result = text("bunny", "the Stanford bunny, 69,666 triangles", scene);
+  result.settings = SettingChoice::steps;
+  return result;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ namespace tessera::accuracy {
 /// Settings that a scene is measured with.
 enum class SettingChoice {
   all,
+  steps,   ///< all but the combinations: for scenes whose frames and references take long
   shading  ///< the default and the steps of the dial that change shading
 };
 

@@ -179,7 +179,7 @@ std::vector<Setting> settings_for(const Scene& scene, SettingChoice choice) {
   append(other_steps(scene));
   const std::vector<Setting> choices = buffer_choices(scene);
   append(choices);
-  append(combinations(shadings, choices));
+  if (choice == SettingChoice::all) append(combinations(shadings, choices));
   return settings;
 }
 
