@@ -56,12 +56,13 @@ constexpr int kSceneHeight = 480;
 constexpr int kMaxTriangles = 200000;
 constexpr int kMinTriangles = 1000;
 
-/// Triangles per square of the detail of a built-in mesh.
+/// A built-in mesh of triangles * detail^2 - pole_triangles * detail triangles.
 struct Shape {
   const char* name;
   int triangles;
+  int pole_triangles = 0;
 };
-constexpr Shape kShapes[] = {{"teapot", 64}, {"sphere", 4}, {"torus", 4}, {"cube", 12}, {"grid", 2}};
+constexpr Shape kShapes[] = {{"teapot", 64, 8}, {"sphere", 4, 4}, {"torus", 4}, {"cube", 12}, {"grid", 2}};
 
 /// The largest detail whose mesh has at most this number of triangles.
 int detail_of(const Shape& shape, int triangles) {
@@ -196,8 +197,8 @@ Json random_framebuffer(Dice& dice, bool is_rgb) {
 /// Adds the meshes and draws of a scene, with triangles of the scene's size class.
 void add_objects(Json& scene, Dice& dice, const SizeClass& sizes, bool is_rgb) {
   const int objects = dice.between(1, 12);
-  int triangles = 0;
-  for (int i = 0; i < objects || triangles < kMinTriangles; ++i) {
+  int triangles = 0, pole_triangles = 0;
+  for (int i = 0; i < objects || triangles - pole_triangles < kMinTriangles; ++i) {
     const double size = dice.thousandths(300, 1300);
     // A sphere of this radius at the distance of the origin: 2 pi r^2 pixels on both of its sides.
     const double radius = size * kSceneHeight / 4;
@@ -208,6 +209,7 @@ void add_objects(Json& scene, Dice& dice, const SizeClass& sizes, bool is_rgb) {
     const Shape shape = kShapes[dice.between(0, 4)];
     const int detail = std::min(detail_of(shape, std::min(static_cast<int>(area / pixels), share)), 512);
     triangles += detail * detail * shape.triangles;
+    pole_triangles += detail * shape.pole_triangles;
     const std::string mesh = "m" + std::to_string(i);
     scene["meshes"][mesh] = {{"builtin", shape.name}, {"detail", detail}};
     scene["frame"].push_back(random_draw(dice, mesh, size, is_rgb));
