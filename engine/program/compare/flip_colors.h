@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "engine/program/compare/exact_functions.h"
+#include "framebuffer/srgb.h"
 
 namespace tessera::program {
 
@@ -39,14 +39,8 @@ inline constexpr Matrix3 kXyzFromRgb{{{10135552.0 / 23359437, 8788810.0 / 233594
                                       {1425312.0 / 80288307, 8788810.0 / 80288307, 70074185.0 / 80288307}}};
 inline constexpr Matrix3 kRgbFromXyz = inverse(kXyzFromRgb);
 
-/// sRGB's transfer function, IEC 61966-2-1, from a level of 255 to linear light.
-inline double linear_from_level(int level) {
-  const double c = level / 255.0;
-  if (c <= 0.04045) return c / 12.92;
-  const double base = (c + 0.055) / 1.055;
-  const double fifth_root = nth_root<5>(base);
-  return base * base * (fifth_root * fifth_root);  // base^2.4
-}
+/// Linear light of an sRGB level of 255.
+inline double linear_from_level(int level) { return detail::linear_from_srgb(level / 255.0); }
 
 /// Luminance and the opponent axes red-green and blue-yellow: (y, x - y, y - z), with XYZ over white.
 /// - YCxCz is (116 y - 16, 500 (x - y), 200 (y - z)). FLIP's filters are linear and their weights sum to 1,
@@ -68,7 +62,7 @@ inline Vector3 rgb_from_opponent(const Vector3& opponent) {
 inline Vector3 hunt_lab_from_rgb(const Vector3& rgb) {
   constexpr double kDelta = 6.0 / 29;
   const auto f = [](double t) {
-    return t > kDelta * kDelta * kDelta ? nth_root<3>(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
+    return t > kDelta * kDelta * kDelta ? detail::nth_root<3>(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
   };
   const Vector3 xyz = kXyzFromRgb * rgb;
   const double fx = f(xyz[0]), fy = f(xyz[1]), fz = f(xyz[2]);
@@ -81,7 +75,7 @@ inline Vector3 hunt_lab_from_rgb(const Vector3& rgb) {
 inline double powered_hyab(const Vector3& a, const Vector3& b) {
   const double da = a[1] - b[1], db = a[2] - b[2];
   const double hyab = std::abs(a[0] - b[0]) + std::sqrt(da * da + db * db);
-  const double fifth_root = nth_root<5>(hyab);
+  const double fifth_root = detail::nth_root<5>(hyab);
   return fifth_root * fifth_root * fifth_root * std::sqrt(fifth_root);  // 3.5 / 5 = 0.7
 }
 
@@ -96,7 +90,7 @@ inline double color_error(double distance, double largest) {
 
 /// color_error^(1 - feature_error), both 0 .. 1.
 inline double combined_error(double color_error, double feature_error) {
-  return color_error > 0 ? exponential((1 - feature_error) * natural_log(color_error)) : 0;
+  return color_error > 0 ? detail::exponential((1 - feature_error) * detail::natural_log(color_error)) : 0;
 }
 
 }  // namespace tessera::program

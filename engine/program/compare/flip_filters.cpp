@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/program/compare/exact_functions.h"
+#include "framebuffer/exact_functions.h"
 
 namespace tessera::program {
 namespace {
@@ -28,7 +28,8 @@ std::vector<double> separated(const SensitivityTerm& term, int radius, double pi
   std::vector<double> weights;
   for (int i = 0; i <= radius; ++i) {
     const double x = i / pixels_per_degree;
-    weights.push_back(std::sqrt(term.a * std::sqrt(kPi / term.b)) * exponential(-kPi * kPi * x * x / term.b));
+    weights.push_back(std::sqrt(term.a * std::sqrt(kPi / term.b)) *
+                      detail::exponential(-kPi * kPi * x * x / term.b));
   }
   return weights;
 }
@@ -68,7 +69,7 @@ void set_feature_filters(FlipFilters& filters, double pixels_per_degree) {
   std::vector<double> smooth, first, second;
   double first_sum = 0, second_positive = 0, second_negative = 0;
   for (int i = 0; i <= radius; ++i) {
-    const double gaussian = exponential(-(i * i) / (2 * sigma * sigma));
+    const double gaussian = detail::exponential(-(i * i) / (2 * sigma * sigma));
     smooth.push_back(gaussian);
     first.push_back(-i * gaussian);
     second.push_back((i * i / (sigma * sigma) - 1) * gaussian);

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "engine/program/compare/exact_functions.h"
+#include "framebuffer/exact_functions.h"
 
 namespace tessera::program {
 
@@ -43,7 +43,7 @@ PictureErrors picture_errors(const PixelView& picture, const PixelView& referenc
   const double mean_square = static_cast<double>(squares) / (3 * static_cast<double>(errors.pixels));
   errors.rms = std::sqrt(mean_square);
   errors.psnr_db = squares == 0 ? std::numeric_limits<double>::infinity()
-                                : 10 / std::numbers::ln10 * natural_log(255.0 * 255.0 / mean_square);
+                                : 10 / std::numbers::ln10 * detail::natural_log(255.0 * 255.0 / mean_square);
   return errors;
 }
 

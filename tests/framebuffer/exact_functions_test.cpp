@@ -1,12 +1,13 @@
 // Roots, logarithm and exponential, compared with long double.
-#include "engine/program/compare/exact_functions.h"
+#include "framebuffer/exact_functions.h"
+#include "framebuffer/srgb.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace tessera::program::exact_functions_test {
+namespace tessera::detail::exact_functions_test {
 namespace {
 
 /// Calls check(x) for numbers spread evenly over exponents from 2^min to 2^max.
@@ -54,5 +55,13 @@ TEST(ExactFunctions, ExponentialIsWithinItsErrors) {
   });
 }
 
+TEST(ExactFunctions, SrgbCurvesInvertEachOther) {
+  // Constants of IEC 61966-2-1, from long double.
+  EXPECT_NEAR(linear_from_srgb(128 / 255.0), 0.215860500113899, 1e-14);
+  EXPECT_NEAR(linear_from_srgb(188 / 255.0), 0.502886458032569, 1e-14);
+  for (int level = 0; level <= 255; ++level)
+    EXPECT_NEAR(srgb_from_linear(linear_from_srgb(level / 255.0)), level / 255.0, 2e-7) << level;
+}
+
 }  // namespace
-}  // namespace tessera::program::exact_functions_test
+}  // namespace tessera::detail::exact_functions_test
