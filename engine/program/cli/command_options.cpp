@@ -7,6 +7,7 @@
 
 #include "engine/program/cli/parse_overrides.h"
 #include "engine/program/cli/validators.h"
+#include "engine/program/scene/dither_names.h"
 #include "engine/program/scene/quality_names.h"
 #include "engine/program/scene/scene_mode.h"
 #include "engine/tessera/tessera.hpp"
@@ -125,6 +126,10 @@ void add_scene_overrides(CLI::App& command, SceneOverrides& overrides) {
   command.add_option("--palette", overrides.palette, "palette; the colour buffer then holds indices")
       ->option_text("bw|gray|ega16|vga256|web216")
       ->check(one_of({"bw", "gray", "ega16", "vga256", "web216"}));
+  std::vector<Choice<Dither>> dithers;
+  for (const auto& [name, dither] : kDithers) dithers.push_back({name, dither});
+  add_choice<std::optional<Dither>, Dither>(command, "--dither", overrides.dither, dithers,
+                                            "dither of the colours that are stored; default: the scene's");
 }
 
 void add_mode(CLI::App& command, SceneOverrides& overrides) {

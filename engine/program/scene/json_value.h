@@ -88,15 +88,15 @@ class Value {
     refuse_choice(all, unsupported);
   }
 
-  /// Returns the value of one of `names`.
   template <class Enum, std::size_t count>
-  Enum choice(const std::array<std::pair<std::string_view, Enum>, count>& names) const {
+  Enum choice(const std::array<std::pair<std::string_view, Enum>, count>& names,
+              std::initializer_list<std::string_view> unsupported = {}) const {
     std::vector<std::string_view> all;
     for (const auto& [name, value] : names) {
       if (json_->is_string() && name == json_->get_ref<const std::string&>()) return value;
       all.push_back(name);
     }
-    refuse_choice(all, {});
+    refuse_choice(all, unsupported);
   }
 
   /// Returns make(); an Error that it throws is rethrown with file and pointer of this value.

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "engine/program/scene/animate.h"
+#include "engine/program/scene/dither_names.h"
 #include "engine/program/scene/embedded.h"
 #include "engine/program/scene/scene_mode.h"
 #include "engine/program/scene/text_file.h"
@@ -92,11 +93,7 @@ void read_framebuffer(const Value& value, Scene& scene) {
     format.stencil_bits = static_cast<int>(stencil->integer(0, 8));
   if (const auto dither = object.find("dither"))
     (scene.reduced ? *scene.reduced : format).dither =
-        dither->choice<Dither>({{"none", Dither::none},
-                                {"bayer2", Dither::bayer2},
-                                {"bayer4", Dither::bayer4},
-                                {"bayer8", Dither::bayer8}},
-                               {"blue_noise", "floyd_steinberg", "jarvis", "pattern"});
+        dither->choice<Dither>(kDithers, {"blue_noise", "floyd_steinberg", "jarvis", "pattern"});
   if (const auto alpha = object.find("alpha")) {
     if (alpha->json() != Json(0) && alpha->json() != Json(8)) alpha->fail("0 or 8 bits");
     format.alpha_bits = static_cast<int>(alpha->integer(0, 8));

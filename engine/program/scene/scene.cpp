@@ -81,6 +81,7 @@ void apply_format(const SceneOverrides& overrides, Scene& scene) {
 void apply(const SceneOverrides& overrides, Scene& scene) {
   if (overrides.mode || scene.mode) apply_mode(overrides, scene);
   else apply_format(overrides, scene);
+  if (overrides.dither) (scene.reduced ? *scene.reduced : scene.framebuffer).dither = *overrides.dither;
 
   // Overridden cameras, lights and caps hold for the whole frame.
   if (overrides.camera) {

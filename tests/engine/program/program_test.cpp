@@ -51,6 +51,7 @@ TEST_F(Program, ReportsWrongUsageInOneLineAndExitsWith2) {
       {"render --shading=gourad", "did you mean \"gouraud\"?"},
       {"render --palete ega16", "did you mean \"--palette\"?"},
       {"render --palette ega", "expected one of"},
+      {"render --dither bayr4", "did you mean \"bayer4\"?"},
       {"render --size 640", "WIDTHxHEIGHT"},
       {"render --size 0x480", "WIDTHxHEIGHT"},
       {"render --size 20000x480", "WIDTHxHEIGHT"},
