@@ -93,20 +93,26 @@ void Accumulation::run(const std::uint32_t* packed_colors, const AccumulatedPixe
   }
 }
 
-std::uint32_t Accumulation::packed_color(const AccumulatedPixel& levels, double threshold) const {
+std::uint32_t Accumulation::packed_color(const AccumulatedPixel& levels, const ColorDither* dither, int x,
+                                         int y) const {
+  const double threshold = dither != nullptr ? dither->pattern().at(x, y) : 0.5;
   const auto component = [&](std::size_t c) {
     return std::clamp(value_ * (levels[c] / accumulation_one(bits_)), 0.0, 1.0);
   };
   const auto stored_level = [&](double value, int bits) {
     return static_cast<std::uint32_t>(value * ((1 << bits) - 1) + threshold);
   };
+  const auto dithered_level = [&](std::size_t c, double value, int bits) {
+    if (dither == nullptr || dither->table(c) == nullptr) return stored_level(value, bits);
+    return stored_level(dither->component(c, static_cast<float>(value)), bits);
+  };
   const double r = component(0), g = component(1), b = component(2);
   std::uint32_t packed = 0;
   if (layout_.alpha_bits != 0) packed = stored_level(component(3), layout_.alpha_bits) << layout_.bits;
   if (layout_.luminance)
-    return packed | stored_level(std::min(kLumaR * r + kLumaG * g + kLumaB * b, 1.0), layout_.bits);
-  return packed | stored_level(r, layout_.r_bits) << layout_.r_shift() |
-         stored_level(g, layout_.g_bits) << layout_.g_shift() | stored_level(b, layout_.b_bits);
+    return packed | dithered_level(0, std::min(kLumaR * r + kLumaG * g + kLumaB * b, 1.0), layout_.bits);
+  return packed | dithered_level(0, r, layout_.r_bits) << layout_.r_shift() |
+         dithered_level(1, g, layout_.g_bits) << layout_.g_shift() | dithered_level(2, b, layout_.b_bits);
 }
 
 }  // namespace tessera::detail

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 
+#include "framebuffer/color_dither.h"
 #include "framebuffer/format.h"
 #include "framebuffer/tessera/enums.hpp"
 
@@ -42,8 +43,10 @@ class Accumulation {
   /// Updates the levels of `count` pixels. @pre op() is not return_color
   /// @param packed_colors  packed colours of these pixels; read by accum and load only
   void run(const std::uint32_t* packed_colors, const AccumulatedPixels& levels, int count) const;
-  /// Packed colour that return_color writes: each component is floor(c (2^b - 1) + threshold).
-  std::uint32_t packed_color(const AccumulatedPixel& levels, double threshold) const;
+  /// Packed colour that return_color writes at a pixel, rows from the top: each component is
+  /// floor(c (2^b - 1) + threshold), in light after ColorDither::component().
+  /// @param dither  null: none
+  std::uint32_t packed_color(const AccumulatedPixel& levels, const ColorDither* dither, int x, int y) const;
 
  private:
   // Terms added to a component, clamped to twice the range of 32 bits, which saturates from any level.

@@ -21,11 +21,19 @@ struct ColorLayout {
   bool luminance = false;  ///< the packed colour is one grey component of `bits` bits
   int r_bits = 8, g_bits = 8, b_bits = 8;
   int alpha_bits = 0;  ///< 0 or 8
+  /// Bits of an index that a draw may store: all of an index layout's; 0 for RGB. RGB and index bits above 0:
+  /// a pixel holds R:G:B, or index_flag() and an index.
+  int index_bits = 0;
   int r_shift() const { return g_bits + b_bits; }
   int g_shift() const { return b_bits; }
   /// Colour bits, without alpha.
   std::uint32_t value_mask() const { return (std::uint32_t{1} << bits) - 1; }
-  float index_modulus() const { return static_cast<float>(std::uint32_t{1} << bits); }
+  bool takes_indices() const { return index_bits > 0; }
+  std::uint32_t index_mask() const { return (std::uint32_t{1} << index_bits) - 1; }
+  float index_modulus() const { return static_cast<float>(std::uint32_t{1} << index_bits); }
+  /// Marks an index in place of R:G:B; 0 if all pixels, or none, are indices.
+  std::uint32_t index_flag() const { return !index && index_bits > 0 ? std::uint32_t{1} << bits : 0; }
+  int planes() const { return bits + alpha_bits + (index_flag() != 0 ? 1 : 0); }
   std::uint32_t alpha_mask() const { return ((std::uint32_t{1} << alpha_bits) - 1) << bits; }
   std::uint32_t r_mask() const { return ((std::uint32_t{1} << r_bits) - 1) << r_shift(); }
   std::uint32_t g_mask() const { return ((std::uint32_t{1} << g_bits) - 1) << g_shift(); }
@@ -39,7 +47,15 @@ constexpr ColorLayout rgb_layout(int bits) {
   layout.b_bits = bits / 3;
   return layout;
 }
-constexpr ColorLayout index_layout(int bits) { return {.bits = bits, .index = true}; }
+constexpr ColorLayout index_layout(int bits) { return {.bits = bits, .index = true, .index_bits = bits}; }
+/// Layout of the pixels of a frame whose colours are reduced to `stored` when it is finished: 8 bits per
+/// component, or an index with a mark.
+constexpr ColorLayout working_layout(const ColorLayout& stored) {
+  ColorLayout layout = rgb_layout(24);
+  layout.alpha_bits = stored.alpha_bits;
+  layout.index_bits = stored.index_bits;
+  return layout;
+}
 
 // Weights of luminance (1- and 2-bit buffers).
 inline constexpr float kLumaR = 0.30f, kLumaG = 0.59f, kLumaB = 0.11f;
@@ -67,7 +83,8 @@ inline float masked_index(float index, float modulus) {
 /// because index + 0.5 is not exact above 2^23.
 inline std::uint32_t quantize_index(const ColorLayout& layout, float index) {
   const auto whole = static_cast<std::uint32_t>(index > 0 ? index : 0.0f);
-  return (whole + (index - static_cast<float>(whole) >= 0.5f ? 1 : 0)) & layout.value_mask();
+  const std::uint32_t nearest = whole + (index - static_cast<float>(whole) >= 0.5f ? 1 : 0);
+  return (nearest & layout.index_mask()) | layout.index_flag();
 }
 /// 8-bit display level of level v of b bits: round(255 v / (2^b - 1)) in integers, 0 for b = 0.
 /// @pre bits <= 16, so that the numerator fits in 32 bits

@@ -48,14 +48,14 @@ struct AxisDistances {
 using AxisTable = std::array<AxisDistances, 256>;  ///< indexed by level
 
 /// Distances from all levels to cell number `cell`, if the range low .. high is divided into `cells` cells.
-AxisTable axis_table(double low, double high, int cells, int cell) noexcept {
+AxisTable axis_table(const LevelValues& values, double low, double high, int cells, int cell) noexcept {
   AxisTable table;
-  for (int level = 0; level < 256; ++level) {
-    const double c = level / 255.0;
+  for (std::size_t level = 0; level < values.size(); ++level) {
+    const double c = values[level];
     const double below = low + (high - low) * cell / cells - c;
     const double above = c - (low + (high - low) * (cell + 1) / cells);
-    table[static_cast<std::size_t>(level)] = {static_cast<float>(square(std::max({below, above, 0.0}))),
-                                              static_cast<float>(square(std::min(below, above)))};
+    table[level] = {static_cast<float>(square(std::max({below, above, 0.0}))),
+                    static_cast<float>(square(std::min(below, above)))};
   }
   return table;
 }
@@ -97,12 +97,12 @@ constexpr std::size_t cell_index(int cells, int x, int y, int z) noexcept {
 
 }  // namespace
 
-PaletteSearch::PaletteSearch(const Palette& palette, bool dithered)
-    : low_(dithered ? -0.5f : 0), high_(dithered ? 1.5f : 1) {
+PaletteSearch::PaletteSearch(const Palette& palette, PaletteSearchRange range, const LevelValues& values)
+    : low_(range == PaletteSearchRange::dithered ? -0.5f : 0),
+      high_(range == PaletteSearchRange::dithered ? 1.5f : 1) {
   const std::vector<DistinctColor> colors = distinct_colors(palette);
   for (const DistinctColor& c : colors)
-    entries_.push_back({static_cast<float>(c.color.r) / 255.0f, static_cast<float>(c.color.g) / 255.0f,
-                        static_cast<float>(c.color.b) / 255.0f, c.index});
+    entries_.push_back({values[c.color.r], values[c.color.g], values[c.color.b], c.index});
 
   // Octree: each level filters the candidates of its parent, so only the root tests all colours.
   std::vector<std::vector<std::uint32_t>> coarse(1);  // candidates per cell
@@ -113,7 +113,7 @@ PaletteSearch::PaletteSearch(const Palette& palette, bool dithered)
   while (cells_ < cells_for(colors.size())) {
     cells_ *= 2;
     axis.clear();
-    for (int cell = 0; cell < cells_; ++cell) axis.push_back(axis_table(low_, high_, cells_, cell));
+    for (int cell = 0; cell < cells_; ++cell) axis.push_back(axis_table(values, low_, high_, cells_, cell));
     fine.assign(cell_index(cells_, cells_, 0, 0), {});
     for (int x = 0; x < cells_; ++x)
       for (int y = 0; y < cells_; ++y)

@@ -5,6 +5,7 @@
 // palette_search_reference.h.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,20 +13,36 @@
 
 namespace tessera::detail {
 
+/// Range of the components of searched colours.
+enum class PaletteSearchRange : std::uint8_t {
+  unit,     ///< 0 to 1
+  dithered  ///< -0.5 to 1.5
+};
+
+/// Values of the 256 display levels by which colours are compared, 0 to 1, increasing.
+using LevelValues = std::array<float, 256>;
+/// The stored values, level / 255.
+constexpr LevelValues stored_values() {
+  LevelValues values{};
+  for (std::size_t level = 0; level < values.size(); ++level)
+    values[level] = static_cast<float>(level) / 255.0f;
+  return values;
+}
+
 class PaletteSearch {
  public:
   /// Builds the cells, about 1 ms for 256 entries. The palette need not outlive the call. Throws
   /// std::bad_alloc only.
-  /// @param dithered  components of the searched colours range from -0.5 to 1.5, else from 0 to 1
-  explicit PaletteSearch(const Palette& palette, bool dithered = false);
+  explicit PaletteSearch(const Palette& palette, PaletteSearchRange range = PaletteSearchRange::unit,
+                         const LevelValues& values = stored_values());
 
   /// Index of the nearest entry that the palette defines. Undefined entries are never chosen.
-  /// - Distance: squared, of components 0..1 (stored value / 255). Ties go to the lowest index.
+  /// - Distance: squared, of components 0..1 and the values of the entries. Ties go to the lowest index.
   /// - Components are clamped to 0..1, NaN counts as 0.
   /// - Equals nearest_reference() bit for bit. Thread-safe, never fails.
   std::uint32_t nearest(float r, float g, float b) const noexcept;
   /// Nearest entry of a dithered colour, which may lie outside the cube; clamping it first could change the
-  /// result. @pre constructed with `dithered`; components from -0.5 to 1.5
+  /// result. @pre PaletteSearchRange::dithered
   std::uint32_t nearest_unclamped(float r, float g, float b) const noexcept;
 
  private:

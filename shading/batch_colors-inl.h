@@ -63,8 +63,9 @@ HWY_INLINE Int pack_indices(const ColorLayout& layout, Float interpolated) {
   const Float index = hn::IfThenElseZero(hn::Eq(within, within), within);  // a NaN becomes 0
   const Int whole = truncate(hn::Max(index, hn::Zero(kFloat)));
   const auto up = hn::RebindMask(kInt, hn::Ge(hn::Sub(index, hn::ConvertTo(kFloat, whole)), splat(0.5f)));
-  return hn::And(hn::Sub(whole, hn::VecFromMask(kInt, up)),
-                 splat(static_cast<std::int32_t>(layout.value_mask())));
+  const Int nearest = hn::Sub(whole, hn::VecFromMask(kInt, up));
+  return hn::Or(hn::And(nearest, splat(static_cast<std::int32_t>(layout.index_mask()))),
+                splat(static_cast<std::int32_t>(layout.index_flag())));
 }
 
 /// Packed colours of one vector of evaluated points.

@@ -138,21 +138,38 @@ HWY_INLINE Colors blend_lanes(const FragmentOps& ops, const Colors& s, const Col
   return out;
 }
 
+/// ComponentTable::at().
+HWY_INLINE Float table_lanes(const ComponentTable& table, Float c) {
+  const Float position = hn::Mul(c, splat(table.intervals()));
+  const Int node = truncate(position);
+  const Float left = hn::GatherIndex(kFloat, table.values(), node);
+  const Float right = hn::GatherIndex(kFloat, table.values() + 1, node);
+  return mul_add(hn::Sub(position, hn::ConvertTo(kFloat, node)), hn::Sub(right, left), left);
+}
+
 /// Packs clamped colours in an RGB or luminance layout.
-HWY_INLINE Int pack_colors(const ColorLayout& layout, const Colors& colors, Float threshold) {
+/// @param dither  in light, it changes the components before the threshold; null: it does not
+HWY_INLINE Int pack_colors(const ColorLayout& layout, const Colors& colors, Float threshold,
+                           const ColorDither* dither = nullptr) {
   const auto level = [&](Float x, int bits) HWY_ATTR {
     return truncate(mul_add(x, splat(static_cast<float>((1 << bits) - 1)), threshold));
+  };
+  const auto component = [&](std::size_t c, Float x) HWY_ATTR {
+    const ComponentTable* const table = dither != nullptr ? dither->table(c) : nullptr;
+    return table != nullptr ? table_lanes(*table, x) : x;
   };
   Int packed = hn::Zero(kInt);
   if (layout.alpha_bits != 0) packed = hn::ShiftLeftSame(level(colors.c[3], layout.alpha_bits), layout.bits);
   if (layout.luminance) {
     const Float luminance = mul_add(splat(kLumaR), colors.c[0],
                                     mul_add(splat(kLumaG), colors.c[1], hn::Mul(splat(kLumaB), colors.c[2])));
-    return hn::Or(packed, level(clamped_unit(luminance), layout.bits));
+    return hn::Or(packed, level(component(0, clamped_unit(luminance)), layout.bits));
   }
-  packed = hn::Or(packed, hn::ShiftLeftSame(level(colors.c[0], layout.r_bits), layout.r_shift()));
-  packed = hn::Or(packed, hn::ShiftLeftSame(level(colors.c[1], layout.g_bits), layout.g_shift()));
-  return hn::Or(packed, level(colors.c[2], layout.b_bits));
+  const Int red = level(component(0, colors.c[0]), layout.r_bits);
+  const Int green = level(component(1, colors.c[1]), layout.g_bits);
+  packed = hn::Or(packed, hn::ShiftLeftSame(red, layout.r_shift()));
+  packed = hn::Or(packed, hn::ShiftLeftSame(green, layout.g_shift()));
+  return hn::Or(packed, level(component(2, colors.c[2]), layout.b_bits));
 }
 
 /// pack_colors() for 8 bits per component and no alpha, rounded to nearest.

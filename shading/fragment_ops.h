@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "framebuffer/color_dither.h"
 #include "framebuffer/tessera/enums.hpp"
 
 namespace tessera::detail {
@@ -27,8 +28,6 @@ struct StencilSide {
   }
 };
 
-inline constexpr int kDitherSize = 8;  ///< largest period of a dither pattern, pixels
-
 struct FragmentOps {
   bool alpha_test = false;
   Compare alpha_func = Compare::greater;
@@ -46,18 +45,9 @@ struct FragmentOps {
   BlendEquation equation = BlendEquation::add;
   std::array<float, 4> constant{};  ///< 0..1
 
-  bool dither = false;
-  /// Added before truncation to a level, by raster row and column modulo kDitherSize. Without dither all 0.5.
-  float threshold[kDitherSize][kDitherSize] = {};
-  /// Index buffers: (threshold - 0.5) * palette_spread is added to the colour before the palette search.
-  float palette_spread = 0;
+  const ColorDither* dither = nullptr;  ///< null: none
 
   LogicOp logic = LogicOp::copy;
 };
-
-/// Sets the thresholds of ordered dither of size n (2, 4, 8; 1: no dither):
-///   M_1 = [0], M_2n = [[4 M_n, 4 M_n + 2], [4 M_n + 3, 4 M_n + 1]]
-///   threshold = (M_n[y mod n][x mod n] + 0.5) / n^2, rows from the window's lower edge
-void set_dither(FragmentOps& ops, int n, int frame_height);
 
 }  // namespace tessera::detail

@@ -20,7 +20,7 @@ bool has_offset(const TileDraw& draw) {
 
 bool is_rgb8(const ColorLayout& layout) {
   const bool has_8_bits = layout.r_bits == 8 && layout.g_bits == 8 && layout.b_bits == 8;
-  const bool is_rgb = !layout.luminance && !layout.index;
+  const bool is_rgb = !layout.luminance && !layout.takes_indices();
   return has_8_bits && is_rgb && layout.alpha_bits == 0;
 }
 

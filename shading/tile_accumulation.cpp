@@ -15,10 +15,9 @@ void return_colors(const TileAccumulation& command, const PixelRect& rect, int t
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x) {
       const int at = tile_index(x, y, tile_size);
-      const float threshold =
-          command.dither.threshold[(tile_y + y) % kDitherSize][(tile_x + x) % kDitherSize];
-      const std::uint32_t packed = command.arithmetic.packed_color(
-          {levels[0][at], levels[1][at], levels[2][at], levels[3][at]}, threshold);
+      const std::uint32_t packed =
+          command.arithmetic.packed_color({levels[0][at], levels[1][at], levels[2][at], levels[3][at]},
+                                          command.dither, tile_x + x, tile_y + y);
       color[at] = (color[at] & ~command.write_mask) | (packed & command.write_mask);
     }
 }

@@ -15,7 +15,7 @@ struct TileAccumulation {
   PixelRect rect;  ///< raster space
   Accumulation arithmetic;
   std::uint32_t write_mask = 0xffffffffu;  ///< return_color: bits of the packed colour that change
-  FragmentOps dither;                      ///< return_color: only its thresholds are used
+  const ColorDither* dither = nullptr;     ///< return_color; null: none
 };
 
 /// Runs the operation on the pixels of `rect`, tile-relative.

@@ -43,12 +43,13 @@ inline void clear_pixels(const TileContext& context, const TileAttachments& pixe
                          const PixelRect& rect) {
   if (clear.color && !clear.dithered) fill_rect(pixels.color, clear.packed_color, rect, context.tile_size);
   if (clear.color && clear.dithered) {
+    const std::uint32_t* const pattern = context.frame.clear_patterns + clear.first_of_pattern;
+    const int size = context.frame.clear_pattern_size;
     for (int y = rect.y0; y < rect.y1; ++y)
       for (int x = rect.x0; x < rect.x1; ++x) {
-        const int row = (context.tile_y + y) % kDitherSize;
-        const int column = (context.tile_x + x) % kDitherSize;
-        pixels.color[tile_index(x, y, context.tile_size)] =
-            clear.pattern[static_cast<std::size_t>(row * kDitherSize + column)];
+        const int row = (context.tile_y + y) & (size - 1);
+        const int column = (context.tile_x + x) & (size - 1);
+        pixels.color[tile_index(x, y, context.tile_size)] = pattern[row * size + column];
       }
   }
   if (clear.depth) fill_rect(pixels.depth, clear.depth_key, rect, context.tile_size);

@@ -113,9 +113,9 @@ struct TileClear {
   std::uint32_t before_draw = 0;  ///< runs before this draw
   bool color = false, depth = false, stencil = false, accumulation = false;
   std::uint32_t packed_color = 0;
-  bool dithered = false;  ///< `pattern` replaces packed_color
-  /// Packed colours by raster row and column modulo kDitherSize.
-  std::array<std::uint32_t, kDitherSize * kDitherSize> pattern;
+  bool dithered = false;  ///< a pattern of the frame replaces packed_color
+  /// Place in TileFrame::clear_patterns of packed colours by raster row and column modulo the dither's size.
+  std::uint32_t first_of_pattern = 0;
   std::int32_t depth_key = 0;
   std::int32_t stencil_value = 0;
   AccumulatedPixel accumulation_levels{};
@@ -132,6 +132,8 @@ struct TileFrame {
   std::uint32_t draw_count = 0;
   const TileClear* clears = nullptr;
   std::uint32_t clear_count = 0;
+  const std::uint32_t* clear_patterns = nullptr;  ///< patterns of dithered clears
+  int clear_pattern_size = 1;                     ///< rows and columns of each, a power of two
   const TileAccumulation* accumulations = nullptr;
   std::uint32_t accumulation_count = 0;
   const BinBatches* batches = nullptr;  ///< @pre index_batches() has run for the tile

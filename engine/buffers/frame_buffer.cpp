@@ -138,7 +138,12 @@ void check_format(const FrameBufferFormat& format) {
   require_range("height", format.height, 1, kMaxFrameBufferSize, " px");
   require_enum({"FrameBuffer: color_mode"}, format.color_mode, ColorMode::index);
   require_enum({"FrameBuffer: depth"}, format.depth, DepthFormat::float32);
-  require_enum({"FrameBuffer: dither"}, format.dither, Dither::bayer8);
+  require_enum({"FrameBuffer: dither"}, format.dither, Dither::pattern);
+  require_enum({"FrameBuffer: dither_in"}, format.dither_in, DitherSpace::light);
+  const float gamma = format.dither_gamma;
+  if (!(gamma == 0 || (gamma >= 1 && gamma <= 4)))
+    throw Error(ErrorCode::invalid_argument, "FrameBuffer: dither_gamma is " + std::to_string(gamma) +
+                                                 ", must be 1 to 4, or 0 for the curve of sRGB");
   require_range("color_bits", format.color_bits, 1, 24);
   require_range("stencil_bits", format.stencil_bits, 0, 8);
   if (format.alpha_bits != 0 && format.alpha_bits != 8)
@@ -170,8 +175,12 @@ void check_format(const FrameBufferFormat& format) {
 }
 
 /// Checks and quantizes a palette.
-Palette checked_palette(std::span<const Color> colors, int bits) {
+Palette checked_palette(std::span<const Color> colors, int bits, Dither dither) {
   require_palette_size(colors.size(), bits);
+  if (dither == Dither::pattern && colors.size() > kMaxMixedEntries)
+    throw Error(ErrorCode::invalid_argument,
+                "FrameBuffer: dither is pattern and the palette has " + std::to_string(colors.size()) +
+                    " entries; pattern mixes at most " + std::to_string(kMaxMixedEntries));
   Palette palette{.bits = bits, .entries = {}};
   for (std::size_t i = 0; i < colors.size(); ++i) {
     const Color& c = colors[i];
@@ -185,12 +194,31 @@ Palette checked_palette(std::span<const Color> colors, int bits) {
   return palette;
 }
 
+void set_layouts(FrameBufferState& s) {
+  const FrameBufferFormat& format = s.format;
+  const bool is_index = format.color_mode == ColorMode::index;
+  s.stored_layout = is_index ? index_layout(format.color_bits) : rgb_layout(format.color_bits);
+  s.stored_layout.alpha_bits = format.alpha_bits;
+  s.layout = is_error_diffusion(format.dither) ? working_layout(s.stored_layout) : s.stored_layout;
+  s.depth_format = format.depth;
+}
+
 void make_planes(FrameBufferState& s) {
-  s.color.planes = BitplaneStack(s.format.width, s.format.height, s.format.color_bits + s.format.alpha_bits);
+  s.color.planes = BitplaneStack(s.format.width, s.format.height, s.layout.planes());
+  if (is_error_diffusion(s.format.dither))
+    s.diffused.planes = BitplaneStack(s.format.width, s.format.height, s.stored_layout.planes());
   s.depth.planes = BitplaneStack(s.format.width, s.format.height, depth_bits(s.depth_format));
   s.stencil.planes = BitplaneStack(s.format.width, s.format.height, s.format.stencil_bits);
   for (Attachment& component : s.accumulation)
     component.planes = BitplaneStack(s.format.width, s.format.height, s.format.accumulation_bits);
+}
+
+/// Calls use() for each stack of planes, in the order of the caller's memory.
+template <class Use>
+void for_each_attachment(FrameBufferState& state, const Use& use) {
+  for (const Buffer which : kBuffers)
+    for (Attachment& attachment : state.stored_attachments(which)) use(attachment);
+  if (is_error_diffusion(state.format.dither)) use(state.color);
 }
 
 }  // namespace
@@ -199,16 +227,15 @@ FrameBuffer::FrameBuffer(FrameBufferFormat format) try : state_(std::make_unique
   const FloatingPointMode mode;
   check_format(format);
   FrameBufferState& s = *state_;
-  const bool index = format.color_mode == ColorMode::index;
-  s.layout = index ? index_layout(format.color_bits) : rgb_layout(format.color_bits);
-  s.layout.alpha_bits = format.alpha_bits;
-  s.depth_format = format.depth;
-  if (index) {
+  if (format.color_mode == ColorMode::index) {
     if (format.palette.empty()) format.palette = default_palette(format.color_bits);
-    s.palette = checked_palette(format.palette, format.color_bits);
+    s.palette = checked_palette(format.palette, format.color_bits, format.dither);
   }
   s.format = std::move(format);
+  set_layouts(s);
   make_planes(s);
+  s.build_dither();
+  s.color.clear_value = s.layout.index_flag();  // index 0
   if (s.depth_format != DepthFormat::none) s.depth.fast_clear(quantize_depth(s.depth_format, 1.0));
 } catch (const std::bad_alloc&) {
   throw Error(ErrorCode::out_of_memory, "FrameBuffer: not enough memory");
@@ -226,28 +253,21 @@ FrameBuffer::FrameBuffer(FrameBufferFormat format, std::span<std::byte> memory)
                 "FrameBuffer: the memory given is at an address that is no multiple of " +
                     std::to_string(kPlaneAlignment));
   auto* at = reinterpret_cast<std::uint8_t*>(memory.data());
-  for (const Buffer which : kBuffers)
-    for (Attachment& attachment : state_->attachments(which)) {
-      attachment.planes.use_external_memory(at);
-      at += attachment.planes.needed_bytes();
-      attachment.materialize_external_memory();
-    }
+  for_each_attachment(*state_, [&](Attachment& attachment) {
+    attachment.planes.use_external_memory(at);
+    at += attachment.planes.needed_bytes();
+    attachment.materialize_external_memory();
+  });
 }
 
 std::size_t FrameBuffer::memory_bytes(const FrameBufferFormat& format) {
   check_format(format);
   FrameBufferState state;
-  state.format.width = format.width;
-  state.format.height = format.height;
-  state.format.color_bits = format.color_bits;
-  state.format.alpha_bits = format.alpha_bits;
-  state.format.stencil_bits = format.stencil_bits;
-  state.format.accumulation_bits = format.accumulation_bits;
-  state.depth_format = format.depth;
+  state.format = format;
+  set_layouts(state);
   make_planes(state);
   std::size_t bytes = 0;
-  for (const Buffer which : kBuffers)
-    for (const Attachment& attachment : state.attachments(which)) bytes += attachment.planes.needed_bytes();
+  for_each_attachment(state, [&](Attachment& attachment) { bytes += attachment.planes.needed_bytes(); });
   return bytes;
 }
 
@@ -259,20 +279,28 @@ const FrameBufferFormat& FrameBuffer::format() const noexcept { return state_->f
 
 void FrameBuffer::set_palette(std::span<const Color> entries) {
   FrameBufferState& s = *state_;
-  if (!s.layout.index)
+  if (!s.stored_layout.index)
     throw Error(ErrorCode::incompatible_format,
                 "FrameBuffer::set_palette: the colour mode is rgb; palettes belong to index mode");
   translate_bad_alloc("FrameBuffer::set_palette", [&] {
     const FloatingPointMode mode;
     std::vector<Color> colors = entries.empty() ? default_palette(s.format.color_bits)
                                                 : std::vector<Color>(entries.begin(), entries.end());
-    s.palette = checked_palette(colors, s.format.color_bits);
+    Palette palette = checked_palette(colors, s.format.color_bits, s.format.dither);
+    std::swap(s.palette, palette);
+    try {
+      s.build_dither();
+    } catch (...) {
+      std::swap(s.palette, palette);
+      throw;
+    }
     s.format.palette = std::move(colors);
     s.palette_search.reset();
   });
 }
 
 int FrameBuffer::plane_count(Buffer buffer) const noexcept {
+  if (buffer == Buffer::color) return state_->stored_color().planes.plane_count();
   int planes = 0;
   for (const Attachment& attachment : state_->attachments(buffer)) planes += attachment.planes.plane_count();
   return planes;
@@ -280,13 +308,14 @@ int FrameBuffer::plane_count(Buffer buffer) const noexcept {
 std::size_t FrameBuffer::allocated_bytes(Buffer buffer) const noexcept {
   std::size_t bytes = 0;
   for (const Attachment& attachment : state_->attachments(buffer)) bytes += attachment.planes.bytes();
+  if (buffer == Buffer::color) bytes += state_->diffused.planes.bytes();
   return bytes;
 }
 
 namespace {
 
 const Attachment& require_defined(FrameBufferState& state, Buffer which, const char* function) {
-  const Attachment& buffer = state.buffer(which);
+  const Attachment& buffer = state.stored_buffer(which);
   if (buffer.planes.plane_count() == 0)
     throw Error(ErrorCode::incompatible_format,
                 std::string(function) + ": the frame buffer has no " + std::string(name(which)) + " buffer");
@@ -341,7 +370,7 @@ PlaneView FrameBuffer::plane(Buffer which, int k) const try {
     throw Error(ErrorCode::invalid_argument,
                 "FrameBuffer::plane: plane " + std::to_string(k) + " of the " + std::string(name(which)) +
                     " buffer, which has planes 0 to " + std::to_string(plane_count(which) - 1));
-  const std::span<Attachment> attachments = state_->attachments(which);
+  const std::span<Attachment> attachments = state_->stored_attachments(which);
   for (Attachment& attachment : attachments) attachment.materialize();
   const int planes = attachments.front().planes.plane_count();
   const Attachment& buffer = attachments[static_cast<std::size_t>(k / planes)];
@@ -356,8 +385,8 @@ void FrameBuffer::read_color(const ImageTarget& target) const {
   require_image(target, state_->format, "FrameBuffer::read_color");
   const FloatingPointMode mode;
   const auto scan_out = translate_bad_alloc("FrameBuffer::read_color", [&] {
-    return ScanOut(state_->layout, state_->layout.index ? &state_->palette : nullptr, target.order,
-                   available_isas().front());
+    return ScanOut(state_->stored_layout, state_->stored_layout.index ? &state_->palette : nullptr,
+                   target.order, available_isas().front());
   });
   const PixelRect region = target_region(target);
   for_each_row(*state_, Buffer::color, "FrameBuffer::read_color",

@@ -8,6 +8,8 @@
 
 #include "engine/tessera/tessera.hpp"
 #include "framebuffer/bitplane.h"
+#include "framebuffer/color_dither.h"
+#include "framebuffer/error_diffusion.h"
 #include "framebuffer/format.h"
 #include "framebuffer/palette.h"
 #include "framebuffer/palette_search.h"
@@ -49,12 +51,21 @@ struct Attachment {
 
 struct FrameBufferState {
   FrameBufferFormat format;
-  ColorLayout layout;
+  ColorLayout layout;  ///< colours that frames draw; with error diffusion working_layout(stored_layout)
+  ColorLayout stored_layout;  ///< colours that are read back
   DepthFormat depth_format = DepthFormat::none;
   Palette palette;                                ///< index mode
   std::unique_ptr<PaletteSearch> palette_search;  ///< built on first use
-  Attachment color, depth, stencil;
+  std::unique_ptr<ColorDither> dither;            ///< ordered dither; null: none
+  std::unique_ptr<ErrorDiffusion> diffusion;      ///< null: none
+  std::vector<std::uint32_t> diffusion_band;      ///< rows of drawn, then of stored colours
+  Attachment color;                               ///< as drawn, in `layout`
+  Attachment diffused;                            ///< with error diffusion: the stored colours
+  Attachment depth, stencil;
   std::array<Attachment, 4> accumulation;  ///< r g b a: one stack holds at most 32 planes
+
+  /// The colours that are read back.
+  Attachment& stored_color() { return is_error_diffusion(format.dither) ? diffused : color; }
 
   /// The first stack of a buffer. The four stacks of accumulation have the same `content`.
   Attachment& buffer(Buffer which) {
@@ -71,13 +82,28 @@ struct FrameBufferState {
     if (which == Buffer::accumulation) return accumulation;
     return {&buffer(which), 1};
   }
+  /// The stacks that are read back.
+  Attachment& stored_buffer(Buffer which) { return which == Buffer::color ? stored_color() : buffer(which); }
+  std::span<Attachment> stored_attachments(Buffer which) {
+    if (which == Buffer::color) return {&stored_color(), 1};
+    return attachments(which);
+  }
   /// Null for RGB buffers. Built on first use.
   const PaletteSearch* ensure_palette_search() {
     if (!layout.index) return nullptr;
     if (!palette_search)
-      palette_search = std::make_unique<PaletteSearch>(palette, format.dither != Dither::none);
+      palette_search = std::make_unique<PaletteSearch>(
+          palette, dither ? PaletteSearchRange::dithered : PaletteSearchRange::unit,
+          level_values(dither ? dither_light() : std::nullopt));
     return palette_search.get();
   }
+  /// The curve of DitherSpace::light; absent for DitherSpace::levels.
+  std::optional<LightCurve> dither_light() const {
+    if (format.dither_in == DitherSpace::levels) return std::nullopt;
+    return LightCurve{format.dither_gamma};
+  }
+  /// Sets `dither`, `diffusion` and `layout` from format, palette and stored_layout.
+  void build_dither();
 };
 
 std::string_view name(Buffer buffer);

@@ -137,8 +137,10 @@ AttachmentOps plan_attachment(Buffer which, const FrameCommands& commands, Frame
                               bool presented) {
   FrameBufferState& target = *recording.target;
   const BufferHistory history = history_of(which, commands, whole_buffer(target));
-  const bool keep = keeps_buffer(recording, which, history.touched(), presented);
   const bool is_shown = presented && which == Buffer::color;
+  // Error diffusion reads the finished planes.
+  const bool is_diffused = is_shown && target.diffusion != nullptr && history.touched();
+  const bool keep = keeps_buffer(recording, which, history.touched(), presented) || is_diffused;
   const bool keeps_clear = keep && history.last_clear != nullptr;
   AttachmentOps ops;
   if (history.is_used || is_shown || keeps_clear)

@@ -53,7 +53,8 @@ void note_unused_colors(const DrawPlan& plan, const RecordedDraw& draw, const Co
   const DrawState& state = draw.state;
   const bool has_colors = draw.mesh.has_colors();
   if (draw.mesh.color_indices && !plan.uses_color_indices)
-    notes.skipped(Effect::color_indices, layout.index ? EffectReason::draw_is_lit : EffectReason::rgb_buffer);
+    notes.skipped(Effect::color_indices,
+                  layout.takes_indices() ? EffectReason::draw_is_lit : EffectReason::rgb_buffer);
   if (has_colors && plan.uses_color_indices)
     notes.skipped(Effect::vertex_colors, EffectReason::draw_has_color_indices);
   if (!state.lighting) return;
@@ -63,7 +64,8 @@ void note_unused_colors(const DrawPlan& plan, const RecordedDraw& draw, const Co
     notes.skipped(Effect::vertex_colors, EffectReason::material_has_index_ramp);
   const bool has_index_ramp =
       state.material.index_ramp || (plan.two_sided && back_material(state).index_ramp);
-  if (has_index_ramp && !layout.index) notes.skipped(Effect::index_lighting, EffectReason::rgb_buffer);
+  if (has_index_ramp && !layout.takes_indices())
+    notes.skipped(Effect::index_lighting, EffectReason::rgb_buffer);
 }
 
 void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
@@ -307,7 +309,7 @@ void plan_interpolated_colors(DrawPlan& plan, const ColorLayout& layout, bool sa
   plan_texturing(plan, inside_triangles && !plan.outlines);  // otherwise colours may be extrapolated
   // Greys and palette entries are not linear in the colour: they are evaluated per visible pixel. So is a
   // colour that the samples of a pixel share, unless it is merely stored.
-  const bool is_linear = !layout.index && !layout.luminance;
+  const bool is_linear = !layout.takes_indices() && !layout.luminance;
   const bool needs_floats = plan.float_colors || plan.unit_colors || plan.textures_per_pixel;
   plan.scaled_colors = is_linear && inside_triangles && !needs_floats;
   const bool merely_stored = !plan.has_ops && plan.write_mask == 0xffffffffu;
@@ -332,7 +334,7 @@ void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
   const DrawState& state = draw.state;
   if (plan.write_mask == 0) return;
   plan.two_sided = state.lighting && draw.scene_state->light_model.two_sided && plan.keep_back;
-  if (!layout.index) return;
+  if (!layout.takes_indices()) return;
   plan.uses_color_indices = !state.lighting && draw.mesh.color_indices;
   plan.is_index[0] = plan.uses_color_indices || (state.lighting && state.material.index_ramp);
   plan.is_index[1] = plan.two_sided ? back_material(state).index_ramp.has_value() : plan.is_index[0];

@@ -182,6 +182,11 @@ PixelRect raster_rect(const Rect& rect, int frame_height) {
   return {clamp(rect.x), clamp(top), clamp(std::int64_t{rect.x} + rect.width), clamp(top + rect.height)};
 }
 
+std::uint32_t plane_mask(const DrawState& state, const FrameBufferState& target) {
+  if (!target.diffusion) return state.plane_mask;
+  return (state.plane_mask & target.stored_layout.value_mask()) != 0 ? ~0u : 0;
+}
+
 std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask,
                          const ColorLayout& layout) {
   std::uint32_t mask = 0;
@@ -218,7 +223,7 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
                const PlanOptions& options, const EffectNotes& notes) {
   const DrawState& state = draw.state;
   plan.reset();
-  plan.write_mask = write_mask(state.color_mask, state.plane_mask, target.layout);
+  plan.write_mask = write_mask(state.color_mask, plane_mask(state, target), target.layout);
   plan.touches_color = plan.write_mask != 0;
   std::optional<EqualAlpha> alpha;
   if (options.elide && (state.alpha_test || state.blend)) alpha = equal_fragment_alpha(draw);

@@ -136,6 +136,8 @@ inline bool renormalizes_normals(const RecordedDraw& draw) {
   return draw.state.shading == Shading::phong && draw.scene_state->quality.renormalize;
 }
 
+/// DrawState::plane_mask. With error diffusion it selects all planes of the colours as drawn, or none.
+std::uint32_t plane_mask(const DrawState& state, const FrameBufferState& target);
 /// Bits of stored colour words that may change; all 32 bits if all planes may.
 std::uint32_t write_mask(const std::array<bool, 4>& color_mask, std::uint32_t plane_mask,
                          const ColorLayout& layout);

@@ -85,26 +85,7 @@ void plan_alpha_test(FragmentPlan& plan, const AlphaTest& state, const std::opti
   notes.skipped(Effect::alpha_test, EffectReason::every_fragment_passes, alpha->cause);
 }
 
-int pattern_size(Dither dither) {
-  switch (dither) {
-    case Dither::none: return 1;
-    case Dither::bayer2: return 2;
-    case Dither::bayer4: return 4;
-    case Dither::bayer8: return 8;
-  }
-  return 8;
-}
-
 }  // namespace
-
-FragmentOps dither_ops(const FrameBufferState& target) {
-  FragmentOps ops;
-  set_dither(ops, pattern_size(target.format.dither), target.format.height);
-  if (target.layout.index)
-    ops.palette_spread = static_cast<float>(
-        1 / std::fmax(1.0, std::cbrt(static_cast<double>(target.palette.entries.size())) - 1));
-  return ops;
-}
 
 bool keeps_stored_colors(const DrawState& state, const FrameBufferState& target, float alpha) {
   const ColorLayout& layout = target.layout;
@@ -122,7 +103,7 @@ FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& targ
                             const EffectNotes& notes) {
   FragmentPlan plan;
   FragmentOps& ops = plan.ops;
-  if (writes_color && !only_indices) ops = dither_ops(target);
+  if (writes_color && !only_indices) ops.dither = target.dither.get();
   if (state.alpha_test) plan_alpha_test(plan, *state.alpha_test, alpha, notes);
   if (state.stencil) {
     plan_stencil(plan, *state.stencil, target.format.stencil_bits);
@@ -130,7 +111,7 @@ FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& targ
     else notes.skipped(Effect::stencil_test, EffectReason::passes_and_writes_nothing);
   }
   if (writes_color && state.blend) plan_blend(plan, *state.blend, alpha, notes);
-  if (writes_color && ops.dither) notes.active(Effect::dither);
+  if (ops.dither != nullptr) notes.active(Effect::dither);
   if (writes_color && only_indices && target.format.dither != Dither::none)
     notes.skipped(Effect::dither, EffectReason::stores_indices);
   if (writes_color && state.logic_op != LogicOp::copy) {
@@ -139,7 +120,7 @@ FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& targ
   }
   const bool stores_alpha = writes_color && target.layout.alpha_bits > 0;
   if (stores_alpha) notes.active(Effect::alpha_planes);
-  const bool changes_color = ops.blend || ops.dither || ops.logic != LogicOp::copy;
+  const bool changes_color = ops.blend || ops.dither != nullptr || ops.logic != LogicOp::copy;
   const bool depends_on_color = ops.alpha_test || changes_color || stores_alpha;
   plan.needed = ops.stencil || depends_on_color;
   plan.is_stencil_only = ops.stencil && !depends_on_color;

@@ -18,9 +18,6 @@ struct FragmentPlan {
   bool is_elided = false;        ///< an operation is left out because of the fragments' alpha
 };
 
-/// The dither of a buffer, without any other operation.
-FragmentOps dither_ops(const FrameBufferState& target);
-
 /// Plans the operations that have an effect.
 /// @param writes_color  a colour plane may change
 /// @param only_indices  colour indices are stored, which are not dithered

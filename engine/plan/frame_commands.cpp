@@ -17,26 +17,37 @@ PixelRect rect_of(const std::optional<Rect>& scissor, const FrameBufferState& ta
   return scissor ? intersect(whole, raster_rect(*scissor, target.format.height)) : whole;
 }
 
-void set_clear_color(TileClear& to, const Clear& clear, FrameBufferState& target) {
+/// Packed colours of a dithered clear, by raster row and column. Appends nothing if all are equal.
+void set_dithered_color(TileClear& to, const Color& c, FrameBufferState& target,
+                        std::vector<std::uint32_t>& patterns) {
+  const ColorDither& dither = *target.dither;
+  const PaletteSearch* const search = target.ensure_palette_search();
+  const int size = dither.pattern().size();
+  const auto packed_at = [&](int x, int y) {
+    const float threshold = dither.pattern().at(x, y);
+    return search != nullptr ? dithered_entry(dither, *search, c.r, c.g, c.b, threshold)
+                             : pack_color(target.layout, {c.r, c.g, c.b, c.a}, threshold, &dither);
+  };
+  to.packed_color = packed_at(0, 0);
+  to.first_of_pattern = static_cast<std::uint32_t>(patterns.size());
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      patterns.push_back(packed_at(x, y));
+      to.dithered |= patterns.back() != to.packed_color;
+    }
+  if (!to.dithered) patterns.resize(to.first_of_pattern);
+}
+
+void set_clear_color(TileClear& to, const Clear& clear, FrameBufferState& target,
+                     std::vector<std::uint32_t>& patterns) {
+  const ColorLayout& layout = target.layout;
   if (clear.index) {
-    to.packed_color = *clear.index;
+    to.packed_color = *clear.index | layout.index_flag();
     return;
   }
-  const FragmentOps ops = dither_ops(target);
   const Color& c = *clear.color;
-  to.packed_color = pack_color_or_index(target.layout, target.ensure_palette_search(), c.r, c.g, c.b, c.a);
-  if (!ops.dither) return;
-  for (std::size_t i = 0; i < to.pattern.size(); ++i) {
-    const float threshold = ops.threshold[i / kDitherSize][i % kDitherSize];
-    if (target.layout.index) {
-      const float shift = (threshold - 0.5f) * ops.palette_spread;
-      to.pattern[i] =
-          target.ensure_palette_search()->nearest_unclamped(c.r + shift, c.g + shift, c.b + shift);
-    } else {
-      to.pattern[i] = pack_color(target.layout, {c.r, c.g, c.b, c.a}, threshold);
-    }
-    to.dithered |= to.pattern[i] != to.packed_color;
-  }
+  if (target.dither) return set_dithered_color(to, c, target, patterns);
+  to.packed_color = pack_color_or_index(layout, target.ensure_palette_search(), c.r, c.g, c.b, c.a);
 }
 
 /// Null if the accumulation changes nothing.
@@ -45,7 +56,7 @@ std::optional<TileAccumulation> plan_accumulation(const Accum& accum, const Fram
       .rect = rect_of(accum.scissor, target),
       .arithmetic = Accumulation(accum.op, accum.value, target.format.accumulation_bits, target.layout),
       .write_mask = write_mask(accum.color_mask, ~0u, target.layout),
-      .dither = dither_ops(target)};
+      .dither = target.dither.get()};
   if (command.rect.empty() || (accum.op == AccumOp::return_color && command.write_mask == 0))
     return std::nullopt;
   return command;
@@ -85,7 +96,8 @@ void plan_draws(FrameCommands& commands, FrameRecording& recording, PlanOptions 
 }
 
 /// Null if the clear changes nothing.
-std::optional<TileClear> plan_clear(const Clear& clear, FrameBufferState& target) {
+std::optional<TileClear> plan_clear(const Clear& clear, FrameBufferState& target,
+                                    std::vector<std::uint32_t>& patterns) {
   TileClear command;
   command.rect = rect_of(clear.scissor, target);
   command.color = clear.color || clear.index;
@@ -95,7 +107,7 @@ std::optional<TileClear> plan_clear(const Clear& clear, FrameBufferState& target
   const bool any_buffer = command.color || command.depth || command.stencil || command.accumulation;
   if (command.rect.empty() || !any_buffer) return std::nullopt;
   if (command.stencil) command.stencil_value = static_cast<std::int32_t>(*clear.stencil);
-  if (command.color) set_clear_color(command, clear, target);
+  if (command.color) set_clear_color(command, clear, target, patterns);
   if (command.depth)
     command.depth_key =
         depth_key_from_stored(target.depth_format, quantize_depth(target.depth_format, *clear.depth));
@@ -112,7 +124,7 @@ void plan_clears(FrameCommands& commands, FrameRecording& recording) {
   for (std::size_t i = 0; i < recording.clears.size(); ++i) {
     const RecordedClear& recorded = recording.clears[i];
     commands.first_clear_at.push_back(static_cast<std::uint32_t>(commands.clears.size()));
-    std::optional<TileClear> command = plan_clear(recorded.clear, *recording.target);
+    std::optional<TileClear> command = plan_clear(recorded.clear, *recording.target, commands.clear_patterns);
     if (!command) continue;
     command->before_draw = commands.first_plan_at[recorded.before_draw];
     commands.clears.push_back(*command);
@@ -231,6 +243,7 @@ void FrameCommands::reset() {
   tile_draws.clear();
   tile_draw_plan.clear();
   clears.clear();
+  clear_patterns.clear();
   clear_record.clear();
   accumulations.clear();
   accumulation_record.clear();

@@ -26,7 +26,8 @@ struct FrameCommands {
   std::vector<TileDraw> tile_draws;
   std::vector<std::size_t> tile_draw_plan;  ///< per tile draw: its plan
   std::vector<TileClear> clears;
-  std::vector<std::size_t> clear_record;  ///< per clear: its recorded clear
+  std::vector<std::uint32_t> clear_patterns;  ///< packed colours of dithered clears
+  std::vector<std::size_t> clear_record;      ///< per clear: its recorded clear
   std::vector<TileAccumulation> accumulations;
   std::vector<std::size_t> accumulation_record;  ///< per accumulation: its recorded accumulation
   LiveCommands live;                             ///< memory of plan_frame()

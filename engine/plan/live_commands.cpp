@@ -26,7 +26,7 @@ class BackwardWalk {
   bool visit(const DrawState& state) {
     const bool has_depth = state.depth.enabled && target_.depth_format != DepthFormat::none;
     const bool has_stencil = state.stencil && target_.format.stencil_bits > 0;
-    const bool changes_color = write_mask(state.color_mask, state.plane_mask, target_.layout) != 0;
+    const bool changes_color = write_mask(state.color_mask, plane_mask(state, target_), target_.layout) != 0;
     const bool is_live = (changes_color && is_read_[kColor]) ||
                          (has_depth && state.depth.write && is_read_[kDepth]) ||
                          (has_stencil && is_read_[kStencil]);

@@ -297,7 +297,7 @@ void count_buffers(WorkCounts& counts, const FinishedFrame& frame) {
   if (frame.presented) {
     counts[PriceItem::shown_tile_pixel] += rendered;
     counts[PriceItem::shown_pixel] += pixels - rendered;
-    if (frame.target.layout.index) counts[PriceItem::shown_index_pixel] += rendered;
+    if (frame.target.stored_layout.index) counts[PriceItem::shown_index_pixel] += rendered;
   }
   if (frame.commands.attachments.depth.used()) counts[PriceItem::depth_tile_pixel] += rendered;
   if (format.samples > 1)

@@ -68,23 +68,36 @@ void check_blend(const char* function, const BlendState& blend) {
 
 void check_color_mask(const char* function, const std::array<bool, 4>& mask, const FrameBufferState& target) {
   if (mask[0] == mask[1] && mask[1] == mask[2]) return;
-  if (!target.layout.index && !target.layout.luminance) return;
-  const char* const reason = target.layout.index ? "an index buffer stores one value per pixel"
-                                                 : "a buffer of 1 or 2 bits stores luminance alone";
+  const ColorLayout& layout = target.stored_layout;
+  if (!layout.index && !layout.luminance) return;
+  const char* const reason = layout.index ? "an index buffer stores one value per pixel"
+                                          : "a buffer of 1 or 2 bits stores luminance alone";
   throw Error(ErrorCode::incompatible_format, std::string(function) +
                                                   ": color_mask differs between r, g and b, but " + reason +
                                                   "; set all or none of the three");
 }
 
 void check_fragment_state(const char* function, const DrawState& s, const FrameBufferState& target) {
-  const auto refuse = [&](ErrorCode code, const char* reason) {
+  const auto refuse = [&](ErrorCode code, const std::string& reason) {
     throw Error(code, std::string(function) + ": " + reason);
   };
   if (s.scissor) check_rect({function, ": scissor"}, *s.scissor);
   check_color_mask(function, s.color_mask, target);
   require_enum({function, ": depth.test"}, s.depth.test, Compare::always);
   require_enum({function, ": logic_op"}, s.logic_op, LogicOp::set);
-  const bool is_index = target.layout.index;
+  if (is_error_diffusion(target.format.dither)) {
+    constexpr const char* kUntilFinished = "keeps colours of 8 bits per component until it is finished";
+    if (s.logic_op != LogicOp::copy)
+      refuse(
+          ErrorCode::incompatible_format,
+          std::string("a logic operation is asked for, but a frame with error diffusion ") + kUntilFinished);
+    const std::uint32_t planes = target.stored_layout.value_mask();
+    if ((s.plane_mask & planes) != 0 && (s.plane_mask & planes) != planes)
+      refuse(ErrorCode::incompatible_format,
+             std::string("plane_mask selects some colour planes, but a frame with error diffusion ") +
+                 kUntilFinished);
+  }
+  const bool is_index = target.stored_layout.index;
   if (s.alpha_test) {
     if (is_index)
       refuse(ErrorCode::incompatible_format,

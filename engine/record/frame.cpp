@@ -161,13 +161,13 @@ void Frame::clear(const Clear& clear) {
     for (const float c : {clear.color->r, clear.color->g, clear.color->b, clear.color->a})
       require_range({"Frame::clear: a component of color"}, c, 0, 1);
   if (clear.index) {
-    if (!target.layout.index)
+    if (!target.layout.takes_indices())
       throw Error(ErrorCode::incompatible_format,
                   "Frame::clear: an index is given, but the frame buffer's colour mode is rgb");
-    if (*clear.index > target.layout.value_mask())
+    if (*clear.index > target.layout.index_mask())
       throw Error(ErrorCode::invalid_argument, "Frame::clear: the index is " + std::to_string(*clear.index) +
                                                    ", must be at most " +
-                                                   std::to_string(target.layout.value_mask()));
+                                                   std::to_string(target.layout.index_mask()));
   }
   if (clear.depth) {
     if (target.depth_format == DepthFormat::none)
@@ -203,7 +203,7 @@ void Frame::clear(const Clear& clear) {
 void Frame::accumulate(const Accum& accum) {
   const FloatingPointMode mode;
   const FrameBufferState& target = *recording_->target;
-  if (target.layout.index)
+  if (target.layout.takes_indices())
     throw Error(ErrorCode::incompatible_format,
                 "Frame::accumulate: the frame buffer holds indices, which do not accumulate");
   if (target.format.accumulation_bits == 0)

@@ -90,6 +90,8 @@ struct RendererState {
   void run_binning(FrameContext& frame);
   void run_tiles(FrameContext& frame);
   void commit_buffers(FrameContext& frame);
+  /// Reduces the finished colours of a buffer with error diffusion, and shows them.
+  void finish_diffusion(FrameContext& frame);
   FrameStats finish(FrameContext& frame);
 
   // Parts of the steps.

@@ -75,7 +75,8 @@ void CaptureStage::change_output(Pass& pass, TileDraw& draw, const FrameCommands
   if (draw.ops != nullptr) {
     // Only tests decide visibility; operations on colours do not.
     FragmentOps& ops = pass.ops.emplace_back(*draw.ops);
-    ops.blend = ops.dither = false;
+    ops.blend = false;
+    ops.dither = nullptr;
     ops.logic = LogicOp::copy;
     draw.ops = &ops;
     draw.deferred = false;

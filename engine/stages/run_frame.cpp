@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "engine/buffers/diffuse_colors.h"
 #include "engine/plan/tile_draws.h"
 #include "engine/plan/work_counts.h"
 #include "engine/runtime/floating_point_mode.h"
@@ -35,6 +36,9 @@ void commit_attachments(const AttachmentOps& ops, std::span<Attachment> attachme
     stored.materialize_external_memory();
   }
 }
+
+/// Whether the frame leaves other contents than it found.
+bool changes(const AttachmentOps& ops) { return ops.stores() || ops.store == StoreOp::fast_clear; }
 
 /// State after a frame that was cancelled or threw: tiles that were stored are kept, so a fast-cleared
 /// attachment becomes `planes`; an undefined one stays undefined.
@@ -97,6 +101,10 @@ void RendererState::plan(FrameContext& frame) {
 void RendererState::reserve_planes(FrameContext& frame) {
   for (const Buffer which : kBuffers)
     reserve_attachments(commands.attachments[which], frame.target.attachments(which));
+  if (frame.target.diffusion && (changes(commands.attachments.color) || frame.image != nullptr)) {
+    reserve_diffused_colors(frame.target);
+    if (frame.image != nullptr) scan_out_cache.prepare(frame.target, frame.image->order, isa);
+  }
   frame.stats.plan_seconds = frame.clock.lap();
 }
 
@@ -117,11 +125,24 @@ void RendererState::run_binning(FrameContext& frame) {
 void RendererState::commit_buffers(FrameContext& frame) {
   for (const Buffer which : kBuffers)
     commit_attachments(commands.attachments[which], frame.target.attachments(which));
+  if (frame.target.diffusion) finish_diffusion(frame);
+}
+
+void RendererState::finish_diffusion(FrameContext& frame) {
+  FrameBufferState& target = frame.target;
+  if (changes(commands.attachments.color) || frame.image != nullptr)
+    diffuse_colors(target, frame.image, scan_out_cache.scan_out ? &*scan_out_cache.scan_out : nullptr);
+  else if (commands.attachments.color.store == StoreOp::discard)
+    target.diffused.content = Attachment::Content::undefined;
+  frame.stats.tile_seconds += frame.clock.lap();
 }
 
 void RendererState::commit_interrupted_buffers(FrameContext& frame) {
   for (const Buffer which : kBuffers)
     commit_interrupted(commands.attachments[which], frame.target.attachments(which));
+  if (frame.target.diffusion && commands.attachments.color.stores() &&
+      frame.target.color.content == Attachment::Content::planes)
+    diffuse_colors(frame.target, nullptr, nullptr);
 }
 
 FrameStats RendererState::finish(FrameContext& frame) {

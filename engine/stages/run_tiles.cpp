@@ -50,6 +50,8 @@ TileFrame RendererState::tile_frame(const FrameContext& frame) {
   tiles.draw_count = static_cast<std::uint32_t>(commands.tile_draws.size());
   tiles.clears = commands.clears.data();
   tiles.clear_count = static_cast<std::uint32_t>(commands.clears.size());
+  tiles.clear_patterns = commands.clear_patterns.data();
+  if (frame.target.dither) tiles.clear_pattern_size = frame.target.dither->pattern().size();
   tiles.accumulations = commands.accumulations.data();
   tiles.accumulation_count = static_cast<std::uint32_t>(commands.accumulations.size());
   tiles.batches = &bin_stage.batches();
@@ -81,7 +83,9 @@ void RendererState::run_tiles(FrameContext& frame) {
   const CaptureStage capture(commands, tiles, frame.recording.capture, options.debug.count_fragments, isa);
   const bool has_output = commands.attachments.any_stores() || frame.image != nullptr;
   if (!has_output && commands.plans.empty() && !capture.any()) return;
-  const TileStage stage(commands, tiles, frame.target, frame.image, capture, scan_out_cache, isa);
+  // Colours that error diffusion reduces are shown after the last tile.
+  const ImageTarget* const image = frame.target.diffusion ? nullptr : frame.image;
+  const TileStage stage(commands, tiles, frame.target, image, capture, scan_out_cache, isa);
   prepare_workspaces({.colors = stage.buffered_tiles(),
                       .normals = capture.needs_normals(),
                       .stencil = commands.attachments.stencil.used(),

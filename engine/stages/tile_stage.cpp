@@ -44,6 +44,13 @@ void distribute(const std::vector<TileStrip>& sorted, std::size_t begin, std::si
 
 }  // namespace
 
+void ScanOutCache::prepare(const FrameBufferState& target, PixelOrder order, InstructionSet isa) {
+  const ColorLayout& layout = target.stored_layout;
+  const Palette* const palette = layout.index ? &target.palette : nullptr;
+  if (scan_out) scan_out->set(layout, palette, order);
+  else scan_out.emplace(layout, palette, order, isa);
+}
+
 TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, FrameBufferState& target,
                      const ImageTarget* image, const CaptureStage& capture, ScanOutCache& scan_out_cache,
                      InstructionSet isa)
@@ -59,9 +66,7 @@ TileStage::TileStage(const FrameCommands& commands, const TileFrame& frame, Fram
       buffered_tiles_(commands.attachments.color.stores() ? tiles_per_store(isa, frame.grid.tile_size) : 1) {
   if (image == nullptr) return;
   target_region_ = target_region(*image);
-  const Palette* const palette = target.layout.index ? &target.palette : nullptr;
-  if (scan_out_cache.scan_out) scan_out_cache.scan_out->set(target.layout, palette, image->order);
-  else scan_out_cache.scan_out.emplace(target.layout, palette, image->order, isa);
+  scan_out_cache.prepare(target, image->order, isa);
   // If only the picture is needed and its background is one colour, tiles without triangles bypass tile
   // memory.
   const bool only_picture_needed = !capture.fills_spans() && !commands.attachments.any_stores();

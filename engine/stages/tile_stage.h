@@ -44,6 +44,9 @@ struct StripCounts {
 /// Scan-out tables, kept from frame to frame.
 struct ScanOutCache {
   std::optional<ScanOut> scan_out;
+  /// Sets `scan_out` for the stored colours of a buffer. Throws std::bad_alloc only.
+  void prepare(const FrameBufferState& target, PixelOrder order, InstructionSet isa);
+
   std::vector<std::uint8_t> cleared_row;  ///< a row of the picture after the last clear
 };
 

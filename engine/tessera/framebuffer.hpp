@@ -22,10 +22,6 @@ inline constexpr int kMaxFrameBufferSize = 16384;  ///< largest width and height
 /// Contents of the colour planes: RGB levels, or indices into a palette.
 enum class ColorMode : std::uint8_t { rgb, index };
 
-/// Ordered dither of colours that draws, clears and AccumOp::return_color store. The number is the size of
-/// the pattern, pixels. Indices are not dithered.
-enum class Dither : std::uint8_t { none, bayer2, bayer4, bayer8 };
-
 /// The attachments of a frame buffer.
 enum class Buffer : std::uint8_t { color, depth, stencil, accumulation };
 
@@ -40,7 +36,13 @@ struct FrameBufferFormat {
   DepthFormat depth = DepthFormat::unorm24;
   int stencil_bits = 8;  ///< 0 to 8
   int alpha_bits = 0;    ///< 0 or 8, stored above the colour planes. 0: alpha reads as 1. RGB buffers only
+  /// - Error diffusion refuses logic operations and partial plane masks. Pixels that draws gave an index keep
+  ///   it and pass no error on.
+  /// - Dither::pattern takes palettes of at most 256 entries.
   Dither dither = Dither::none;
+  DitherSpace dither_in = DitherSpace::levels;
+  /// DitherSpace::light: light is the stored value raised to this exponent, 1 to 4; 0: sRGB's curve.
+  float dither_gamma = 0;
   int accumulation_bits = 0;  ///< 0, 16 or 32 per component, signed. RGB buffers only
   /// Coverage samples per pixel: 1, 4 or 8 (MSAA). RGB buffers only.
   /// - Coverage, depth test and stencil run per sample, at the Direct3D 11 standard positions.
@@ -84,7 +86,8 @@ class TESSERA_API FrameBuffer {
   explicit FrameBuffer(FrameBufferFormat format);
   /// Keeps the planes in the caller's memory, which must outlive the frame buffer.
   /// - Size: memory_bytes(format). Alignment: 64 bytes.
-  /// - Order: planes of colour, depth, stencil, accumulation, each laid out as plane() returns it.
+  /// - Order: planes of colour, depth, stencil, accumulation, each laid out as plane() returns it; with error
+  ///   diffusion then the planes that keep 8 bits per component.
   /// - After finish() the memory holds the buffers that the frame kept; other buffers are unspecified.
   /// @throws Error  as above, and for memory that is too small or not aligned
   FrameBuffer(FrameBufferFormat format, std::span<std::byte> memory);
@@ -108,6 +111,7 @@ class TESSERA_API FrameBuffer {
   /// accumulation bits. 0 for a value that is no Buffer.
   int plane_count(Buffer buffer) const noexcept;
   /// Bytes allocated for the planes of a buffer; 0 before the first store, and for a value that is no Buffer.
+  /// Colour includes the planes that error diffusion reads.
   std::size_t allocated_bytes(Buffer buffer) const noexcept;
   /// Plane k, counted from the lowest bit (of blue, of the index, of depth). Accumulation: all planes of red
   /// first, then green, blue, alpha. Allocates the buffer if necessary.

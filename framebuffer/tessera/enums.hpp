@@ -94,6 +94,32 @@ enum class AccumOp : std::uint8_t {
   return_color  ///< colour = value * acc, clamped to 0 .. 1, with the buffer's dither
 };
 
+/// Dither of colours that draws, clears and AccumOp::return_color store. Indices are not dithered.
+/// - bayer2 to bayer8, blue_noise, pattern: ordered. Each write is rounded by its position alone.
+/// - floyd_steinberg, jarvis: error diffusion. It runs once over the finished frame; until then the frame
+///   buffer keeps 8 bits per component.
+enum class Dither : std::uint8_t {
+  none,
+  bayer2,           ///< thresholds of a 2x2 pattern
+  bayer4,           ///< 4x4
+  bayer8,           ///< 8x8
+  blue_noise,       ///< 64x64, void and cluster [Ulichney 1993]
+  floyd_steinberg,  ///< error to 4 neighbours, serpentine rows [Floyd and Steinberg 1976]
+  jarvis,           ///< error to 12 neighbours, serpentine rows [Jarvis, Judice and Ninke 1976]
+  pattern  ///< the two palette entries whose mix in sixteenths is nearest, placed by bayer4; RGB: bayer4
+};
+
+/// Whether a dither passes the rounding error of a pixel to its neighbours.
+constexpr bool is_error_diffusion(Dither dither) {
+  return dither == Dither::floyd_steinberg || dither == Dither::jarvis;
+}
+
+/// Quantity that a dither preserves on average.
+enum class DitherSpace : std::uint8_t {
+  levels,  ///< stored values
+  light    ///< the light that a display emits for them: a dithered grey is as bright as the grey
+};
+
 /// Rasterization of polygons: filled, as the lines of their boundary, or as points at their corners. Edges
 /// made by clipping belong to the boundary.
 enum class PolygonMode : std::uint8_t { fill, line, point };

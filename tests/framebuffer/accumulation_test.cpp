@@ -123,9 +123,12 @@ TEST(AccumulationArithmetic, ReturnMatchesLongDouble) {
     for (const ColorLayout& layout : layouts())
       for (const double value : kValues)
         for (const AccumulatedPixel& pixel : levels_of(bits))
-          for (const double threshold : {0.5, 0.0078125, 0.9921875}) {
-            const std::uint32_t packed =
-                Accumulation(Op::return_color, value, bits, layout).packed_color(pixel, threshold);
+          for (const auto& [x, y] : {std::pair{-1, 0}, {0, 7}, {7, 0}}) {
+            // The lowest and the highest threshold of bayer8; without dither 0.5.
+            const ColorDither dither(Dither::bayer8, std::nullopt, layout, {}, 8);
+            const double threshold = x < 0 ? 0.5 : x == 0 ? 0.0078125 : dither.pattern().at(x, y);
+            const std::uint32_t packed = Accumulation(Op::return_color, value, bits, layout)
+                                             .packed_color(pixel, x < 0 ? nullptr : &dither, x, y);
             ASSERT_EQ(packed & ~(layout.value_mask() | layout.alpha_mask()), 0u);
             differing += packed != expected_packed(value, pixel, bits, layout, threshold);
             ++all;
@@ -153,7 +156,7 @@ int largest_loss(int bits) {
     const std::uint32_t packed = level * 0x010101u;
     AccumulatedPixel acc{};
     for (int pass = 0; pass < 256; ++pass) accumulate.run(&packed, {&acc[0], &acc[1], &acc[2], &acc[3]}, 1);
-    const std::uint32_t back = return_color.packed_color(acc, 0.5);
+    const std::uint32_t back = return_color.packed_color(acc, nullptr, 0, 0);
     EXPECT_EQ(back, (back & 255) * 0x010101u) << "components differ";
     loss = std::max(loss, std::abs(static_cast<int>(back & 255) - static_cast<int>(level)));
   }

@@ -16,7 +16,7 @@ void store_fragments_lanes(const FragmentOps& ops, const ColorLayout& layout,
     for (int c = 0; c < 4; ++c) source.c[c] = hn::LoadU(kFloat, arrays.source[c] + i);
     const Int stored = hn::LoadU(kInt, arrays.stored + i);
     if (ops.blend) source = blend_lanes(ops, source, unpack_colors(layout, stored));
-    const Int packed = pack_colors(layout, source, splat(arrays.threshold));
+    const Int packed = pack_colors(layout, source, splat(arrays.threshold), ops.dither);
     const Int result = ops.logic == LogicOp::copy ? packed : logic_op_lanes(ops.logic, packed, stored);
     hn::StoreU(result, kInt, arrays.results + i);
   }

@@ -185,12 +185,14 @@ TEST(FragmentOps, LevelsLogicAndThresholdsInEveryLayout) {
     for (int logic = 0; logic < kLogicOps; ++logic) {
       FragmentOps ops;
       ops.logic = static_cast<LogicOp>(logic);
+      const ColorDither in_light(Dither::bayer8, LightCurve{}, layout, {}, 8);
       for (const float threshold : {0.5f, 1 / 128.0f, 127 / 128.0f})
         for (const InstructionSet isa : available_isas()) {
+          ops.dither = threshold == 0.5f ? nullptr : &in_light;
           test::store_fragments(isa)(ops, layout, fragments.arrays(threshold));
           for (std::size_t i = 0; i < fragments.stored.size(); ++i) {
             const Rgba color{fragments.c[0][i], fragments.c[1][i], fragments.c[2][i], fragments.c[3][i]};
-            const std::uint32_t packed = pack_color(layout, color, threshold);
+            const std::uint32_t packed = pack_color(layout, color, threshold, ops.dither);
             const auto stored = static_cast<std::uint32_t>(fragments.stored[i]);
             ASSERT_EQ(static_cast<std::uint32_t>(fragments.results[i]),
                       logic_op_reference(ops.logic, packed, stored));
@@ -202,18 +204,17 @@ TEST(FragmentOps, LevelsLogicAndThresholdsInEveryLayout) {
 
 TEST(FragmentOps, DitherPatternsMatchTheReference) {
   for (const int height : {1, 7, 8, 480})
-    for (const auto& [n, dither] : {std::pair{1, reference::Dither::kNone},
-                                    {2, reference::Dither::kBayer2},
-                                    {4, reference::Dither::kBayer4},
-                                    {8, reference::Dither::kBayer8}}) {
-      FragmentOps ops;
-      set_dither(ops, n, height);
-      EXPECT_EQ(ops.dither, n > 1);
+    for (const auto& [dither, expected] : {std::pair{Dither::none, reference::Dither::kNone},
+                                           {Dither::bayer2, reference::Dither::kBayer2},
+                                           {Dither::bayer4, reference::Dither::kBayer4},
+                                           {Dither::bayer8, reference::Dither::kBayer8},
+                                           {Dither::pattern, reference::Dither::kBayer4}}) {
+      const DitherPattern pattern(dither, height);
       for (int y = 0; y < height; ++y)
         for (int x = 0; x < 20; ++x)
-          EXPECT_EQ(ops.threshold[y % kDitherSize][x % kDitherSize],
-                    static_cast<float>(reference::dither_threshold(dither, x, height - 1 - y)))
-              << n << " at " << x << ", " << y;
+          EXPECT_EQ(pattern.at(x, y),
+                    static_cast<float>(reference::dither_threshold(expected, x, height - 1 - y)))
+              << static_cast<int>(dither) << " at " << x << ", " << y;
     }
 }
 

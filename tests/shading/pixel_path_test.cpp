@@ -88,7 +88,8 @@ TEST(PixelPath, OtherOperationsAreFragments) {
     EXPECT_EQ(c.choose().color_write, ColorWrite::evaluated);
     return c.choose().kind;
   };
-  EXPECT_EQ(kind_with([](PixelPathCase& c) { c.ops.dither = true; }), Kind::fragments);
+  const ColorDither dither(Dither::bayer2, std::nullopt, rgb_layout(24), {}, 1);
+  EXPECT_EQ(kind_with([&](PixelPathCase& c) { c.ops.dither = &dither; }), Kind::fragments);
   EXPECT_EQ(kind_with([](PixelPathCase& c) { c.ops.alpha_test = true; }), Kind::fragments);
   EXPECT_EQ(kind_with([](PixelPathCase& c) { c.ops.logic = LogicOp::bit_xor; }), Kind::fragments);
   EXPECT_EQ(kind_with([](PixelPathCase& c) { c.ops.equation = BlendEquation::max; }), Kind::fragments);

@@ -308,7 +308,6 @@ PixelRect random_window(RandomTriangles& source) {
 TEST(TileRenderer, AlphaBlendingMatchesTheGenericPath) {
   RandomTriangles source(48, kTile);
   FragmentOps plain_blend;
-  set_dither(plain_blend, 1, kTile);
   plain_blend.blend = true;
   FragmentOps generic = plain_blend;
   generic.alpha_test = true;

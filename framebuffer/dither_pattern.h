@@ -1,0 +1,35 @@
+// Thresholds of ordered dither.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "framebuffer/tessera/enums.hpp"
+
+namespace tessera::detail {
+
+inline constexpr int kMaxDitherSize = 64;  ///< pixels: the largest period of a pattern
+
+/// Thresholds by position. A component c of b bits is stored as floor(c (2^b - 1) + threshold).
+/// - bayer2, bayer4, bayer8, and pattern (4):
+///     M_1 = [0],  M_2n = [[4 M_n, 4 M_n + 2], [4 M_n + 3, 4 M_n + 1]]
+///     threshold = (M_n[y mod n][x mod n] + 0.5) / n^2
+/// - blue_noise: (rank[y mod 64][x mod 64] + 0.5) / 64^2, see blue_noise.h.
+/// - Others: 0.5, which rounds to nearest.
+/// Rows y are counted from the lower edge of the window.
+class DitherPattern {
+ public:
+  DitherPattern(Dither kind, int frame_height);
+
+  int size() const { return size_; }  ///< period in pixels, a power of two; 1: no dither
+  /// Threshold of a pixel, rows counted from the top.
+  float at(int x, int y) const {
+    return thresholds_[static_cast<std::size_t>((y & (size_ - 1)) * size_ + (x & (size_ - 1)))];
+  }
+
+ private:
+  int size_;
+  std::vector<float> thresholds_;  ///< row by row, from the top of the frame
+};
+
+}  // namespace tessera::detail
