@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "perf/bench/dither_workloads.h"
 #include "perf/bench/elision_workloads.h"
 #include "perf/bench/fill_workloads.h"
 #include "perf/bench/mesh_workloads.h"
@@ -14,7 +15,7 @@ const std::vector<WorkloadEntry>& workloads() {
     std::vector<WorkloadEntry> all;
     for (auto* const list : {fill_workloads, grid_workloads, lit_workloads, point_and_line_workloads,
                              model_workloads, scene_workloads, operation_workloads, elision_workloads,
-                             frame_buffer_workloads, plane_store_workloads}) {
+                             frame_buffer_workloads, dither_workloads, plane_store_workloads}) {
       std::vector<WorkloadEntry> entries = list();
       all.insert(all.end(), entries.begin(), entries.end());
     }

@@ -41,7 +41,7 @@ class SceneFrames {
   program::Picture picture_;
 };
 
-constexpr int kPasses = 3;
+constexpr int kCheckPasses = 3;
 
 /// Times of frames, after two that warm up.
 void measure_pass(SceneFrames& frames, std::vector<double>& times) {
@@ -93,7 +93,7 @@ std::vector<CheckedScene> check_prices(const std::vector<NamedScene>& scenes, co
                                        InstructionSet instruction_set) {
   const RendererOptions options{.threads = 1, .instruction_set = instruction_set};
   std::vector<std::vector<double>> times(scenes.size());
-  for (int pass = 0; pass < kPasses; ++pass)
+  for (int pass = 0; pass < kCheckPasses; ++pass)
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       SceneFrames frames(scenes[i].scene, options);
       measure_pass(frames, times[i]);

@@ -130,6 +130,15 @@ void add_scene_overrides(CLI::App& command, SceneOverrides& overrides) {
   for (const auto& [name, dither] : kDithers) dithers.push_back({name, dither});
   add_choice<std::optional<Dither>, Dither>(command, "--dither", overrides.dither, dithers,
                                             "dither of the colours that are stored; default: the scene's");
+  add_choice<std::optional<DitherSpace>, DitherSpace>(
+      command, "--dither-in", overrides.dither_in,
+      {{"levels", DitherSpace::levels}, {"light", DitherSpace::light}},
+      "what a dither preserves on average: stored values, or the light of a display; default: the scene's");
+  command
+      .add_option("--dither-gamma", overrides.dither_gamma,
+                  "light is the stored value raised to this power, 1 to 4; default: the curve of sRGB")
+      ->option_text("G")
+      ->check(CLI::Range(1.0, 4.0));
 }
 
 void add_mode(CLI::App& command, SceneOverrides& overrides) {

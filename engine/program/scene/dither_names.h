@@ -11,10 +11,15 @@
 namespace tessera::program {
 
 /// Every dither, in the order of help texts and tables.
-inline constexpr std::array<std::pair<std::string_view, Dither>, 4> kDithers{{{"none", Dither::none},
-                                                                              {"bayer2", Dither::bayer2},
-                                                                              {"bayer4", Dither::bayer4},
-                                                                              {"bayer8", Dither::bayer8}}};
+inline constexpr std::array<std::pair<std::string_view, Dither>, 8> kDithers{
+    {{"none", Dither::none},
+     {"bayer2", Dither::bayer2},
+     {"bayer4", Dither::bayer4},
+     {"bayer8", Dither::bayer8},
+     {"blue_noise", Dither::blue_noise},
+     {"floyd_steinberg", Dither::floyd_steinberg},
+     {"jarvis", Dither::jarvis},
+     {"pattern", Dither::pattern}}};
 
 /// @pre the dither is in kDithers
 std::string_view dither_name(Dither dither);

@@ -77,9 +77,17 @@ void read_colors(const Object& object, Scene& scene) {
   }
 }
 
+void read_dither(const Object& object, FrameBufferFormat& format) {
+  if (const auto dither = object.find("dither")) format.dither = dither->choice<Dither>(kDithers);
+  if (const auto space = object.find("dither_in"))
+    format.dither_in =
+        space->choice<DitherSpace>({{"levels", DitherSpace::levels}, {"light", DitherSpace::light}});
+  if (const auto gamma = object.find("dither_gamma")) format.dither_gamma = gamma->number(1, 4);
+}
+
 void read_framebuffer(const Value& value, Scene& scene) {
-  const Object object(value, {"mode", "reduce", "width", "height", "color", "palette", "dither", "alpha",
-                              "depth", "stencil", "accumulation", "samples"});
+  const Object object(value, {"mode", "reduce", "width", "height", "color", "palette", "dither", "dither_in",
+                              "dither_gamma", "alpha", "depth", "stencil", "accumulation", "samples"});
   FrameBufferFormat& format = scene.framebuffer;
   if (object.has("mode")) read_mode(object, scene);
   else read_colors(object, scene);
@@ -91,9 +99,7 @@ void read_framebuffer(const Value& value, Scene& scene) {
                                                {"float32", DepthFormat::float32}});
   if (const auto stencil = object.find("stencil"))
     format.stencil_bits = static_cast<int>(stencil->integer(0, 8));
-  if (const auto dither = object.find("dither"))
-    (scene.reduced ? *scene.reduced : format).dither =
-        dither->choice<Dither>(kDithers, {"blue_noise", "floyd_steinberg", "jarvis", "pattern"});
+  read_dither(object, scene.reduced ? *scene.reduced : format);
   if (const auto alpha = object.find("alpha")) {
     if (alpha->json() != Json(0) && alpha->json() != Json(8)) alpha->fail("0 or 8 bits");
     format.alpha_bits = static_cast<int>(alpha->integer(0, 8));

@@ -81,7 +81,10 @@ void apply_format(const SceneOverrides& overrides, Scene& scene) {
 void apply(const SceneOverrides& overrides, Scene& scene) {
   if (overrides.mode || scene.mode) apply_mode(overrides, scene);
   else apply_format(overrides, scene);
-  if (overrides.dither) (scene.reduced ? *scene.reduced : scene.framebuffer).dither = *overrides.dither;
+  FrameBufferFormat& stored = scene.reduced ? *scene.reduced : scene.framebuffer;
+  stored.dither = overrides.dither.value_or(stored.dither);
+  stored.dither_in = overrides.dither_in.value_or(stored.dither_in);
+  stored.dither_gamma = overrides.dither_gamma.value_or(stored.dither_gamma);
 
   // Overridden cameras, lights and caps hold for the whole frame.
   if (overrides.camera) {

@@ -117,10 +117,13 @@ struct SceneOverrides {
   std::optional<Shading> shading = {};  ///< shading of every draw
   std::optional<int> color_bits = {};
   std::optional<std::string> palette = {};  ///< name; makes the colour buffer a colour-index buffer
-  std::optional<Dither> dither = {};        ///< if the scene is reduced, of the reduction
-  std::optional<SceneCamera> camera = {};   ///< for the whole frame; keeps the scene's `reversed`
-  LightList lights = {};                    ///< for the whole frame
-  std::optional<Quality> quality = {};      ///< for the whole frame
+  // Of the reduction, if the scene is reduced.
+  std::optional<Dither> dither = {};
+  std::optional<DitherSpace> dither_in = {};
+  std::optional<float> dither_gamma = {};
+  std::optional<SceneCamera> camera = {};  ///< for the whole frame; keeps the scene's `reversed`
+  LightList lights = {};                   ///< for the whole frame
+  std::optional<Quality> quality = {};     ///< for the whole frame
 };
 /// @throws Error for values out of range, for a palette that does not fit into the colour bits, and for
 /// values

@@ -21,10 +21,20 @@ DisplayMode named_display_mode(const std::string& name) {
   }
 }
 
+namespace {
+
+void copy_dither(const FrameBufferFormat& from, FrameBufferFormat& to) {
+  to.dither = from.dither;
+  to.dither_in = from.dither_in;
+  to.dither_gamma = from.dither_gamma;
+}
+
+}  // namespace
+
 void set_mode(const DisplayMode& mode, Scene& scene) {
   FrameBufferFormat colors = frame_buffer_format(mode);
   FrameBufferFormat& format = scene.framebuffer;
-  if (scene.reduced) format.dither = scene.reduced->dither;
+  if (scene.reduced) copy_dither(*scene.reduced, format);
   format.width = colors.width;
   format.height = colors.height;
   format.color_mode = colors.color_mode;
@@ -47,7 +57,7 @@ void reduce_to_mode(Scene& scene) {
   scene.reduced = frame_buffer_format(*scene.mode);
   scene.reduced->depth = DepthFormat::none;
   scene.reduced->stencil_bits = 0;
-  scene.reduced->dither = format.dither;
+  copy_dither(format, *scene.reduced);
   format.color_mode = ColorMode::rgb;
   format.color_bits = 24;
   format.palette.clear();
