@@ -35,10 +35,6 @@ constexpr const char* kCompareExamples = R"(Examples:
   tessera compare before.png after.png
   tessera compare before.png after.png --map errors.png
   tessera compare before.png after.png --ppd 20 --json)";
-constexpr const char* kModesExamples = R"(Examples:
-  tessera modes                                   all named modes
-  tessera modes --diagonal 17 --pitch 0.28        the standard mode of a screen
-  tessera modes --json > modes.json)";
 
 constexpr const char* kSelftestExamples = R"(Examples:
   tessera selftest
@@ -337,25 +333,6 @@ CLI::App* add_compare(CLI::App& program, CompareRequest& request) {
   command->add_option("--threads", request.threads, "threads; default: TESSERA_THREADS, or all cores")
       ->option_text("N")
       ->transform(integer_from(1, 1024));
-  return command;
-}
-
-CLI::App* add_modes(CLI::App& program, ModesRequest& request) {
-  CLI::App* command = program.add_subcommand(
-      "modes", "List the display modes of render --mode, or find the standard mode of a screen");
-  command->footer(kModesExamples);
-  command->option_defaults()->take_last();
-  CLI::Option* const diagonal =
-      command->add_option("--diagonal", request.diagonal_in, "diagonal of a 4:3 screen in inches")
-          ->option_text("INCHES")
-          ->check(positive_number());
-  CLI::Option* const pitch =
-      command->add_option("--pitch", request.pitch_mm, "distance of its dots of one colour in millimetres")
-          ->option_text("MM")
-          ->check(positive_number());
-  diagonal->needs(pitch);
-  pitch->needs(diagonal);
-  command->add_flag("--json", request.json, "print JSON");
   return command;
 }
 

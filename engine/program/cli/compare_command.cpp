@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/program/cli/file_guard.h"
+#include "engine/program/cli/formatted.h"
 #include "engine/program/compare/magma.h"
 #include "engine/program/compare/picture_errors.h"
 
@@ -32,13 +32,6 @@ std::optional<int> largest_alpha_error(const Picture& a, const Picture& b) {
   for (std::size_t i = 3; i < a.rgba.size(); i += 4)
     largest = std::max(largest, std::abs(int{a.rgba[i]} - int{b.rgba[i]}));
   return largest;
-}
-
-template <class... Numbers>
-std::string formatted(const char* format, Numbers... numbers) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, numbers...);
-  return text;
 }
 
 std::string comparison_text(const Comparison& comparison) {

@@ -220,6 +220,8 @@ int run(int argument_count, char** arguments) {
   if (commands.render->parsed()) threads = &requests.render.options.threads;
   if (commands.explain->parsed() && requests.explain.measure) threads = &requests.explain.threads;
   if (commands.compare->parsed()) threads = &requests.compare.threads;
+  const bool compares_modes = !requests.modes.comparison.folder.empty();
+  if (compares_modes) threads = &requests.modes.comparison.threads;
   if (commands.selftest->parsed()) threads = &requests.selftest.threads;
   if (threads != nullptr)
     if (const std::string wrong = read_threads_variable(*threads); !wrong.empty())
@@ -240,6 +242,10 @@ int run(int argument_count, char** arguments) {
   }
   if (commands.explain->parsed()) return explain(requests.explain);
   if (commands.compare->parsed()) return compare(requests.compare);
+  if (compares_modes) {
+    requests.modes.comparison.json = requests.modes.json;
+    return compare_modes(requests.modes.comparison);
+  }
   if (commands.modes->parsed()) std::cout << modes_text(requests.modes);
   else if (commands.info->parsed()) std::cout << info_text();
   else if (commands.formats->parsed()) std::cout << formats_text();

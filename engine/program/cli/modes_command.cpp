@@ -1,12 +1,13 @@
 #include "engine/program/cli/modes_command.h"
 
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
 
+#include "engine/program/cli/formatted.h"
+#include "engine/program/cli/mode_selection.h"
 #include "engine/tessera/display_mode.hpp"
 #include "engine/tessera/screen_geometry.hpp"
 
@@ -17,13 +18,6 @@ using Json = nlohmann::ordered_json;
 
 /// Dot pitches of the list, millimetres: a standard, a fine and a late colour tube.
 constexpr double kPitches[] = {0.39, 0.28, 0.22};
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 std::string_view layout_name(MemoryLayout layout) {
   switch (layout) {
@@ -37,8 +31,6 @@ std::string_view layout_name(MemoryLayout layout) {
   }
   return "";
 }
-
-bool has_pixels(const DisplayMode& mode) { return mode.layout != MemoryLayout::character_cells; }
 
 /// Diagonal in inches rounded up to a tenth, on which the mode is sharp. Tubes only: the pixels of a panel
 /// are its dots.

@@ -12,8 +12,10 @@
 
 #include "engine/program/cli/explain_command.h"
 #include "engine/program/cli/file_guard.h"
+#include "engine/program/cli/indexed_frame.h"
 #include "engine/program/cli/memory_dump.h"
 #include "engine/program/cli/printable.h"
+#include "engine/program/cli/scene_buffers.h"
 #include "engine/program/cli/scene_input.h"
 #include "engine/program/compare/picture_errors.h"
 #include "engine/program/imageio/atomic_file.h"
@@ -53,19 +55,6 @@ std::string plane_path(const fs::path& folder, Buffer which, int k) {
   return (folder / name).string();
 }
 
-/// Frame buffers of a scene: the one that is drawn, and one of fewer colours if the picture is reduced.
-struct SceneBuffers {
-  explicit SceneBuffers(const Scene& scene) : drawn(scene.framebuffer) {
-    if (scene.reduced) reduced.emplace(*scene.reduced);
-  }
-  /// Holds the colours of the picture.
-  const FrameBuffer& shown() const { return reduced ? *reduced : drawn; }
-  const FrameBuffer& holding(Buffer which) const { return which == Buffer::color ? shown() : drawn; }
-
-  FrameBuffer drawn;
-  std::optional<FrameBuffer> reduced;
-};
-
 void write_planes(const SceneBuffers& buffers, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -77,37 +66,13 @@ void write_planes(const SceneBuffers& buffers, const fs::path& folder) {
   }
 }
 
-/// Colour-index frames of up to 8 bits and grey frames of up to 2 bits become PNG files of 1, 2, 4 or 8 bits
-/// per pixel.
 bool is_indexed_png(const FrameBufferFormat& format, const std::string& path) {
-  const int max_bits = format.color_mode == ColorMode::index ? 8 : 2;
-  return format.color_bits <= max_bits && lower_case_extension(path) == ".png";
+  return is_indexed(format) && lower_case_extension(path) == ".png";
 }
 
 /// Frames of 1 bit may be written as PBM.
 bool is_one_bit_pbm(const FrameBufferFormat& format, const std::string& path) {
   return format.color_bits == 1 && lower_case_extension(path) == ".pbm";
-}
-
-IndexedPicture indexed_picture(const FrameBuffer& buffer) {
-  const FrameBufferFormat& format = buffer.format();
-  IndexedPicture picture{.width = format.width, .height = format.height};
-  while (picture.bits / 2 >= format.color_bits) picture.bits /= 2;
-  std::vector<std::uint32_t> packed_colors(static_cast<std::size_t>(format.width) *
-                                           static_cast<std::size_t>(format.height));
-  buffer.read_packed_colors(packed_colors);
-  picture.indices.assign(packed_colors.begin(), packed_colors.end());
-  if (format.color_mode == ColorMode::index) {
-    // Entries beyond the scene's palette are black.
-    picture.palette.resize(std::size_t{3} << format.color_bits);
-    for (std::size_t i = 0; i < format.palette.size(); ++i) {
-      const Color& c = format.palette[i];
-      const float components[3] = {c.r, c.g, c.b};
-      for (std::size_t k = 0; k < 3; ++k)
-        picture.palette[3 * i + k] = static_cast<std::uint8_t>(components[k] * 255 + 0.5f);
-    }
-  }
-  return picture;
 }
 
 /// Keeps the buffers that are read after the frame.

@@ -1,0 +1,97 @@
+// Options of `tessera modes`.
+#include <string>
+
+#include "engine/program/cli/command_options.h"
+#include "engine/program/cli/mode_selection.h"
+#include "engine/program/cli/validators.h"
+#include "engine/program/scene/dither_names.h"
+
+namespace tessera::program::cli {
+namespace {
+
+constexpr const char* kModesExamples = R"(Examples:
+  tessera modes                                   all named modes
+  tessera modes --diagonal 17 --pitch 0.28        the standard mode of a screen
+  tessera modes --json > modes.json
+  tessera modes scene.json -o compared            a scene in all modes, with all dithers
+  tessera modes truck.glb -o compared --modes cga,ega,640x480x12 --dithers none,bayer8)";
+
+void add_screen_options(CLI::App& command, ModesRequest& request) {
+  CLI::Option* const diagonal =
+      command.add_option("--diagonal", request.diagonal_in, "diagonal of a 4:3 screen in inches")
+          ->option_text("INCHES")
+          ->check(positive_number());
+  CLI::Option* const pitch =
+      command.add_option("--pitch", request.pitch_mm, "distance of its dots of one colour in millimetres")
+          ->option_text("MM")
+          ->check(positive_number());
+  diagonal->needs(pitch);
+  pitch->needs(diagonal);
+}
+
+/// Adds an option whose value parse() turns into `target`.
+template <class Target, class Parse>
+CLI::Option* add_list(CLI::App& command, const std::string& option, Target& target, const Parse& parse,
+                      const std::string& text) {
+  const auto set = [&target, parse, option](const std::string& typed) {
+    try {
+      target = parse(typed);
+    } catch (const Error& error) {
+      throw CLI::ValidationError(option, error.what());
+    }
+  };
+  return command.add_option_function<std::string>(option, set, text)->option_text("NAME,...");
+}
+
+void add_mode_comparison(CLI::App& command, ModeComparisonRequest& request) {
+  command
+      .add_option("input", request.input,
+                  "scene or model to draw in all modes, with -o; default: the built-in scene")
+      ->option_text("[SCENE.json | MODEL]")
+      ->check(not_empty("a scene's or a model's name"));
+  command
+      .add_option("-o,--output", request.folder,
+                  "folder for the scene in every mode with every dither: MODE-DITHER.png, contact.png, "
+                  "modes.csv, modes.json; the table is also printed")
+      ->option_text("DIR")
+      ->check(not_empty("DIR's name"));
+  add_list(
+      command, "--modes", request.modes, parse_modes,
+      "modes to compare, with parameters (cga:palette=0) or as WIDTHxHEIGHTxBITS; default: all named modes "
+      "with pixels");
+  add_list(command, "--dithers", request.dithers, parse_dithers,
+           "dithers to compare: " + dither_name_list(", ") + "; default: all");
+  command.add_option("--threads", request.threads, "threads of -o; default: TESSERA_THREADS, or all cores")
+      ->option_text("N")
+      ->transform(integer_from(1, 1024));
+}
+
+/// Refuses options that belong to different uses of the command.
+void check_use(const CLI::App& command, const ModesRequest& request) {
+  if (command.remaining_size() > 0) return;  // reported as unexpected
+  const bool compares = !request.comparison.folder.empty();
+  for (const char* const option : {"input", "--modes", "--dithers", "--threads"})
+    if (!compares && command.count(option) > 0)
+      throw CLI::ValidationError(std::string(option) == "input" ? request.comparison.input : option,
+                                 "needs -o DIR, the folder for pictures and tables");
+  if (compares && command.count("--diagonal") > 0)
+    throw CLI::ValidationError("--diagonal", "finds the mode of a screen, excludes -o");
+}
+
+}  // namespace
+
+CLI::App* add_modes(CLI::App& program, ModesRequest& request) {
+  CLI::App* command = program.add_subcommand(
+      "modes",
+      "List the display modes of render --mode, find the standard mode of a screen, or draw a scene in all "
+      "modes to compare them");
+  command->footer(kModesExamples);
+  command->option_defaults()->take_last();
+  add_screen_options(*command, request);
+  add_mode_comparison(*command, request.comparison);
+  command->add_flag("--json", request.json, "print JSON");
+  command->parse_complete_callback([command, &request] { check_use(*command, request); });
+  return command;
+}
+
+}  // namespace tessera::program::cli
