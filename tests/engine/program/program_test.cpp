@@ -324,6 +324,16 @@ TEST_F(Program, WritesPngOfFewBitsPerPixel) {
   }
 }
 
+TEST_F(Program, LeavesAlphaOutOfPngOfFewBitsPerPixel) {
+  for (const char* bits : {"1", "2"}) {
+    write("grey.json",
+          R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8, "alpha": 8, "color": {"bits": )" +
+              std::string(bits) + R"(}}, "frame": [{"clear": {"color": [0.4, 0.4, 0.4, 1]}}]})");
+    ASSERT_EQ(run("render grey.json -o p.png").code, 0);
+    EXPECT_EQ(run("render grey.json -o q.ppm --compare p.png").code, 0) << bits;
+  }
+}
+
 TEST_F(Program, OptionalValuesDoNotConsumeTheScene) {
   write("s.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8}})");
   for (const char* options : {"--stats", "--stats=json", "--light 1,0,0", "--light 1,0,0,0 --light 0,1,0",
