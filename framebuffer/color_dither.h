@@ -57,7 +57,7 @@ class ColorDither {
 };
 
 /// Palette entry of a pixel of colour r, g, b, 0 to 1.
-/// @param search     of the palette, PaletteSearchRange::dithered, with the level_values() of the dither
+/// @param search     of the palette, with half of spread() as margin and the level_values() of the dither
 /// @param threshold  of the pixel
 inline std::uint32_t dithered_entry(const ColorDither& dither, const PaletteSearch& search, float r, float g,
                                     float b, float threshold) {

@@ -1,5 +1,7 @@
 #include "framebuffer/dither_pattern.h"
 
+#include <algorithm>
+
 #include "framebuffer/blue_noise.h"
 
 namespace tessera::detail {
@@ -33,13 +35,15 @@ int rank_of(Dither kind, int x, int y, int size) {
 
 }  // namespace
 
-DitherPattern::DitherPattern(Dither kind, int frame_height) : size_(size_of(kind)) {
-  thresholds_.reserve(static_cast<std::size_t>(size_ * size_));
+DitherPattern::DitherPattern(Dither kind, int frame_height)
+    : size_(size_of(kind)), columns_(std::max(size_, 4)) {
+  thresholds_.reserve(static_cast<std::size_t>(size_ * columns_));
   for (int y = 0; y < size_; ++y) {
     const int from_below = (frame_height - 1 - y) & (size_ - 1);
-    for (int x = 0; x < size_; ++x)
-      thresholds_.push_back((static_cast<float>(rank_of(kind, x, from_below, size_)) + 0.5f) /
-                            static_cast<float>(size_ * size_));
+    for (int x = 0; x < columns_; ++x) {
+      const int rank = rank_of(kind, x & (size_ - 1), from_below, size_);
+      thresholds_.push_back((static_cast<float>(rank) + 0.5f) / static_cast<float>(size_ * size_));
+    }
   }
 }
 

@@ -21,15 +21,19 @@ class DitherPattern {
  public:
   DitherPattern(Dither kind, int frame_height);
 
-  int size() const { return size_; }  ///< period in pixels, a power of two; 1: no dither
+  int size() const { return size_; }        ///< period in pixels, a power of two; 1: no dither
+  int columns() const { return columns_; }  ///< stored columns: size(), or 4 if that is more
   /// Threshold of a pixel, rows counted from the top.
-  float at(int x, int y) const {
-    return thresholds_[static_cast<std::size_t>((y & (size_ - 1)) * size_ + (x & (size_ - 1)))];
+  float at(int x, int y) const { return *four_from(x, y); }
+  /// Thresholds of x to x + 3. @pre x is a multiple of 4; only the first is read otherwise
+  const float* four_from(int x, int y) const {
+    return &thresholds_[static_cast<std::size_t>((y & (size_ - 1)) * columns_ + (x & (columns_ - 1)))];
   }
 
  private:
   int size_;
-  std::vector<float> thresholds_;  ///< row by row, from the top of the frame
+  int columns_;                    ///< size_, or 4 if that is more
+  std::vector<float> thresholds_;  ///< rows from the top of the frame
 };
 
 }  // namespace tessera::detail

@@ -11,22 +11,13 @@
 namespace tessera::detail {
 namespace {
 
-/// Red, green and blue, or the luminance alone. Four components fill a vector.
-struct Values {
-  float c[4];
-  Values& operator+=(const Values& o) {
-    for (int k = 0; k < 4; ++k) c[k] += o.c[k];
-    return *this;
-  }
-  friend Values operator-(Values a, const Values& b) {
-    for (int k = 0; k < 4; ++k) a.c[k] -= b.c[k];
-    return a;
-  }
-  friend Values operator*(Values a, float factor) {
-    for (float& component : a.c) component *= factor;
-    return a;
-  }
-};
+/// Red, green and blue, or the luminance alone, and a lane without use. Operations act on each lane.
+using Values [[gnu::vector_size(16)]] = float;
+using Levels4 [[gnu::vector_size(16)]] = std::int32_t;
+
+Values lesser(Values a, Values b) { return a < b ? a : b; }
+Values greater(Values a, Values b) { return a > b ? a : b; }
+Values all(float value) { return Values{} + value; }
 
 constexpr int kPad = 2;  ///< entries beyond each end of a row that receive shares
 
@@ -36,13 +27,12 @@ struct Rounded {
   Values values;
 };
 
-/// Rounds to the nearest levels, equally spaced.
+/// Rounds to the nearest levels, equally spaced. Values are in levels.
 class Levels {
  public:
   explicit Levels(const ColorLayout& layout) {
-    const auto set = [this](std::size_t k, int bits, int shift) {
+    const auto set = [this](int k, int bits, int shift) {
       max_[k] = static_cast<float>((1 << bits) - 1);
-      step_[k] = 1 / max_[k];
       shift_[k] = shift;
     };
     if (layout.luminance) {
@@ -53,20 +43,17 @@ class Levels {
     set(1, layout.g_bits, layout.g_shift());
     set(2, layout.b_bits, 0);
   }
-  Rounded operator()(const Values& wanted) const {
-    std::int32_t level[4];
-    Rounded result{};
-    for (int k = 0; k < 4; ++k) {
-      const float scaled = std::max(wanted.c[k] * max_[k] + 0.5f, 0.0f);
-      level[k] = static_cast<std::int32_t>(std::min(scaled, max_[k]));
-      result.values.c[k] = static_cast<float>(level[k]) * step_[k];
-    }
-    result.packed = static_cast<std::uint32_t>(level[0] << shift_[0] | level[1] << shift_[1] | level[2]);
-    return result;
+  Rounded operator()(Values wanted) const {
+    // Errors are at most half a level: below 0 the conversion truncates to 0.
+    const Levels4 level = __builtin_convertvector(lesser(wanted + 0.5f, max_), Levels4);
+    return {static_cast<std::uint32_t>(level[0] << shift_[0] | level[1] << shift_[1] | level[2]),
+            __builtin_convertvector(level, Values)};
   }
+  /// Values of components 1.
+  Values max() const { return max_; }
 
  private:
-  float max_[4] = {}, step_[4] = {};
+  Values max_{};
   int shift_[3] = {};
 };
 
@@ -82,16 +69,16 @@ class LevelsByLight {
     components_.push_back(component(layout.g_bits, layout.g_shift(), curve));
     components_.push_back(component(layout.b_bits, 0, curve));
   }
-  Rounded operator()(const Values& wanted) const {
+  Rounded operator()(Values wanted) const {
     Rounded result{};
     for (std::size_t k = 0; k < components_.size(); ++k) {
       const Component& c = components_[k];
-      const float value = wanted.c[k];
+      const float value = wanted[static_cast<int>(k)];
       const float inside = std::min(std::max(value, 0.0f), 1.0f);
       std::size_t level = c.first_level[static_cast<std::size_t>(inside * kCells)];
       while (level < c.middle.size() && value >= c.middle[level]) ++level;
       result.packed |= static_cast<std::uint32_t>(level) << c.shift;
-      result.values.c[k] = c.light[level];
+      result.values[static_cast<int>(k)] = c.light[level];
     }
     return result;
   }
@@ -125,19 +112,18 @@ class LevelsByLight {
 class Entries {
  public:
   Entries(const Palette& palette, const std::optional<LightCurve>& light)
-      : search_(palette, PaletteSearchRange::dithered, level_values(light)),
+      : search_(palette, palette_spread(palette.entries.size()) / 2, level_values(light)),
         margin_(palette_spread(palette.entries.size()) / 2) {
     const LevelValues value = level_values(light);
-    for (const Rgb8 c : palette.entries) values_.push_back({{value[c.r], value[c.g], value[c.b], 0}});
-    if (values_.empty()) values_.push_back({});
+    for (const Rgb8 c : palette.entries) values_.push_back(Values{value[c.r], value[c.g], value[c.b], 0});
+    if (values_.empty()) values_.push_back(Values{});
   }
   /// Values with errors, limited.
   Values limited(Values wanted) const {
-    for (float& component : wanted.c) component = std::min(std::max(component, -margin_), 1 + margin_);
-    return wanted;
+    return lesser(greater(wanted, all(-margin_)), all(1 + margin_));
   }
-  Rounded operator()(const Values& wanted) const {
-    const std::uint32_t index = search_.nearest_unclamped(wanted.c[0], wanted.c[1], wanted.c[2]);
+  Rounded operator()(Values wanted) const {
+    const std::uint32_t index = search_.nearest_unclamped(wanted[0], wanted[1], wanted[2]);
     return {index, values_[index]};
   }
 
@@ -147,9 +133,9 @@ class Entries {
   std::vector<Values> values_;
 };
 
-Values limited(const Values& wanted, const Entries& entries) { return entries.limited(wanted); }
+Values limited(Values wanted, const Entries& entries) { return entries.limited(wanted); }
 template <class Quantizer>
-Values limited(const Values& wanted, const Quantizer&) {
+Values limited(Values wanted, const Quantizer&) {
   return wanted;  // levels cover 0..1: errors stay within half a step
 }
 
@@ -166,7 +152,7 @@ class ErrorDiffusion::Rows {
         errors_(3 * row_size()) {
     if (stored_.index) entries_.emplace(*options.palette, options.light);
     else if (options.light) by_light_.emplace(stored_, *options.light);
-    else levels_.emplace(stored_);
+    else scale_ = levels_.emplace(stored_).max();
     if (stored_.luminance && options.light)
       luminance_light_.emplace(4096, [&](double c) { return options.light->light(c); });
   }
@@ -208,7 +194,7 @@ class ErrorDiffusion::Rows {
       if ((words[x] & working_.index_flag()) != 0) {
         stored[x] = words[x] & stored_.value_mask();
         next = second_next;
-        second_next = {};
+        second_next = Values{};
         continue;
       }
       Values wanted = values_of(words[x]);
@@ -218,13 +204,13 @@ class ErrorDiffusion::Rows {
       const Rounded rounded = quantizer(wanted);
       stored[x] = rounded.packed;
       const Values error = wanted - rounded.values;
-      next = second_next;
-      second_next = {};
-      for (const ErrorShare& to : kShares) {
-        if (to.dy > 0) rows[to.dy][x + step * to.dx] += error * to.share;
-        else if (to.dx == 1) next += error * to.share;
-        else second_next += error * to.share;
+      next = error * kShares[0].share;
+      if constexpr (kShares[1].dy == 0) {
+        next += second_next;
+        second_next = error * kShares[1].share;
       }
+      for (const ErrorShare& to : kShares)
+        if (to.dy > 0) rows[to.dy][x + step * to.dx] += error * to.share;
     }
     rows[1][x - step] += next;
     rows[1][x - step] += second_next;
@@ -232,8 +218,7 @@ class ErrorDiffusion::Rows {
 
   Values values_of(std::uint32_t word) const {
     const float r = value_[word >> 16 & 0xff], g = value_[word >> 8 & 0xff], b = value_[word & 0xff];
-    if (!stored_.luminance) return {{r, g, b, 0}};
-    return {{luminance(word), 0, 0, 0}};
+    return (stored_.luminance ? Values{luminance(word), 0, 0, 0} : Values{r, g, b, 0}) * scale_;
   }
   float luminance(std::uint32_t word) const {
     const auto level = [](std::uint32_t bits) { return static_cast<float>(bits & 0xff) / 255.0f; };
@@ -258,6 +243,7 @@ class ErrorDiffusion::Rows {
   ColorLayout stored_, working_;
   int width_;
   LevelValues value_;
+  Values scale_ = all(1);
   std::optional<ComponentTable> luminance_light_;
   std::optional<Levels> levels_;
   std::optional<LevelsByLight> by_light_;

@@ -23,7 +23,8 @@ struct ErrorDiffusionOptions {
   int width = 0;                          ///< pixels
 };
 
-/// Share of a rounding error for the pixel dx to the right (in the direction of the row) and dy below.
+/// Share of a rounding error for the pixel dx to the right (in the direction of the row) and dy below. Lists
+/// begin with dx = 1, then dx = 2 if it has a share, of dy = 0.
 struct ErrorShare {
   int dx, dy;
   float share;

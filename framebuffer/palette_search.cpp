@@ -1,13 +1,16 @@
 #include "framebuffer/palette_search.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <utility>
 
 namespace tessera::detail {
 
 namespace {
 
+constexpr int kMaxDivisions = 2;
+constexpr std::size_t kFewCandidates = 8;  // a cell with more, and with kMinInside entries inside, is divided
+constexpr std::ptrdiff_t kMinInside = 2;
 constexpr float kMaxSquaredDistance = 16;  // exceeds the squared diagonal of the searched cube, 12
 
 // NaN becomes 0.
@@ -15,7 +18,7 @@ float clamp_component(float c) noexcept {
   const float at_least_zero = c > 0.0f ? c : 0.0f;
   return at_least_zero < 1.0f ? at_least_zero : 1.0f;
 }
-double square(double d) noexcept { return d * d; }
+float square(float d) noexcept { return d * d; }
 
 struct DistinctColor {
   Rgb8 color;
@@ -40,48 +43,6 @@ std::vector<DistinctColor> distinct_colors(const Palette& palette) {
   return colors;
 }
 
-/// Squared distances along one axis from a stored level to a cell.
-struct AxisDistances {
-  float nearest;   ///< to the nearest point of the cell
-  float farthest;  ///< to its farthest point
-};
-using AxisTable = std::array<AxisDistances, 256>;  ///< indexed by level
-
-/// Distances from all levels to cell number `cell`, if the range low .. high is divided into `cells` cells.
-AxisTable axis_table(const LevelValues& values, double low, double high, int cells, int cell) noexcept {
-  AxisTable table;
-  for (std::size_t level = 0; level < values.size(); ++level) {
-    const double c = values[level];
-    const double below = low + (high - low) * cell / cells - c;
-    const double above = c - (low + (high - low) * (cell + 1) / cells);
-    table[level] = {static_cast<float>(square(std::max({below, above, 0.0}))),
-                    static_cast<float>(square(std::min(below, above)))};
-  }
-  return table;
-}
-
-// Appends to `kept` the colours that can be nearest to some point of a cell. A colour cannot be nearest if
-// its distance to the nearest point of the cell exceeds another colour's distance to the farthest point.
-// - `among`: candidates of a box that contains the cell.
-// - `red`, `green`, `blue`: the cell's distances along the axes.
-// - `distances`: scratch memory.
-void keep_candidates(const std::vector<DistinctColor>& colors, const std::vector<std::uint32_t>& among,
-                     const AxisTable& red, const AxisTable& green, const AxisTable& blue,
-                     std::vector<float>& distances, std::vector<std::uint32_t>& kept) {
-  float best_farthest = kMaxSquaredDistance;
-  distances.resize(among.size());
-  for (std::size_t i = 0; i < among.size(); ++i) {
-    const Rgb8 c = colors[among[i]].color;
-    distances[i] = red[c.r].nearest + green[c.g].nearest + blue[c.b].nearest;
-    best_farthest = std::min(best_farthest, red[c.r].farthest + green[c.g].farthest + blue[c.b].farthest);
-  }
-  // Distances, here and in search(), and the cell of a point are rounded, each by less than one part in 10^6.
-  // The margin keeps colours that rounding would drop.
-  const float limit = best_farthest * (1.0f + 1e-4f);
-  for (std::size_t i = 0; i < among.size(); ++i)
-    if (distances[i] <= limit) kept.push_back(among[i]);
-}
-
 /// Cells per axis: more for larger palettes, so that a cell keeps few candidates.
 int cells_for(std::size_t colors) noexcept {
   if (colors <= 4) return 4;
@@ -89,56 +50,111 @@ int cells_for(std::size_t colors) noexcept {
   return colors <= 1024 ? 16 : 32;
 }
 
-constexpr std::size_t cell_index(int cells, int x, int y, int z) noexcept {
-  return (static_cast<std::size_t>(x) * static_cast<std::size_t>(cells) + static_cast<std::size_t>(y)) *
-             static_cast<std::size_t>(cells) +
-         static_cast<std::size_t>(z);
+constexpr std::uint32_t cell_index(int cells, int x, int y, int z) noexcept {
+  return static_cast<std::uint32_t>((x * cells + y) * cells + z);
 }
 
 }  // namespace
 
-PaletteSearch::PaletteSearch(const Palette& palette, PaletteSearchRange range, const LevelValues& values)
-    : low_(range == PaletteSearchRange::dithered ? -0.5f : 0),
-      high_(range == PaletteSearchRange::dithered ? 1.5f : 1) {
+PaletteSearch::PaletteSearch(const Palette& palette, float margin, const LevelValues& values)
+    : low_(-margin), high_(1 + margin) {
   const std::vector<DistinctColor> colors = distinct_colors(palette);
-  for (const DistinctColor& c : colors)
+  Positions all;
+  for (const DistinctColor& c : colors) {
+    all.push_back(static_cast<std::uint32_t>(entries_.size()));
     entries_.push_back({values[c.color.r], values[c.color.g], values[c.color.b], c.index});
+  }
+  cells_per_axis_ = cells_for(colors.size());
+  scale_ = static_cast<float>(cells_per_axis_) / (high_ - low_);
+  cells_.resize(cell_index(cells_per_axis_, cells_per_axis_, 0, 0));
+  append_cells(0, {{low_, low_, low_}, high_ - low_}, cells_per_axis_, all, 0);
+}
 
-  // Octree: each level filters the candidates of its parent, so only the root tests all colours.
-  std::vector<std::vector<std::uint32_t>> coarse(1);  // candidates per cell
-  std::vector<std::vector<std::uint32_t>> fine;       // per cell of half the size
-  for (std::size_t i = 0; i < colors.size(); ++i) coarse[0].push_back(static_cast<std::uint32_t>(i));
-  std::vector<float> distances;
-  std::vector<AxisTable> axis;
-  while (cells_ < cells_for(colors.size())) {
-    cells_ *= 2;
-    axis.clear();
-    for (int cell = 0; cell < cells_; ++cell) axis.push_back(axis_table(values, low_, high_, cells_, cell));
-    fine.assign(cell_index(cells_, cells_, 0, 0), {});
-    for (int x = 0; x < cells_; ++x)
-      for (int y = 0; y < cells_; ++y)
-        for (int z = 0; z < cells_; ++z)
-          keep_candidates(colors, coarse[cell_index(cells_ / 2, x / 2, y / 2, z / 2)],
-                          axis[static_cast<std::size_t>(x)], axis[static_cast<std::size_t>(y)],
-                          axis[static_cast<std::size_t>(z)], distances, fine[cell_index(cells_, x, y, z)]);
-    coarse.swap(fine);
+/// The entries of `among` that can be nearest to some point of a box. An entry cannot be nearest if its
+/// distance to the nearest point of the box exceeds another entry's distance to the farthest point.
+PaletteSearch::Positions PaletteSearch::candidates_of(const Box& box, const Positions& among) const {
+  const auto along = [&](int axis, float c) {
+    const float below = box.low[axis] - c, above = c - (box.low[axis] + box.size);
+    return std::pair(square(std::max({below, above, 0.0f})), square(std::min(below, above)));
+  };
+  float best_farthest = kMaxSquaredDistance;
+  std::vector<float> nearest;
+  nearest.reserve(among.size());
+  for (const std::uint32_t i : among) {
+    const Entry& entry = entries_[i];
+    const auto [r0, r1] = along(0, entry.r);
+    const auto [g0, g1] = along(1, entry.g);
+    const auto [b0, b1] = along(2, entry.b);
+    nearest.push_back(r0 + g0 + b0);
+    best_farthest = std::min(best_farthest, r1 + g1 + b1);
   }
-  scale_ = static_cast<float>(cells_) / (high_ - low_);
-  cell_begin_.push_back(0);
-  for (const auto& cell : coarse) {
-    candidates_.insert(candidates_.end(), cell.begin(), cell.end());
-    cell_begin_.push_back(static_cast<std::uint32_t>(candidates_.size()));
+  // Distances, here and in search(), and the cell of a point are rounded: relative to the distances within
+  // the smallest cells by less than one part in 10^4. The margin keeps entries that rounding would drop.
+  const float limit = best_farthest * (1.0f + 1e-3f);
+  Positions kept;
+  for (std::size_t i = 0; i < among.size(); ++i)
+    if (nearest[i] <= limit) kept.push_back(among[i]);
+  return kept;
+}
+
+/// Sets the cells of a cube, from `place` on. It is halved along each axis until it has `cells` per axis, so
+/// that only few entries are tested for most of the cells.
+void PaletteSearch::append_cells(std::uint32_t place, const Box& box, int cells, const Positions& among,
+                                 int divisions) {
+  const auto halve = [&](const auto& self, const Box& part, int x, int y, int z, int size,
+                         const Positions& candidates) -> void {
+    if (size == 1) return append_cell(place + cell_index(cells, x, y, z), part, candidates, divisions);
+    const float half = part.size / 2;
+    const int step = size / 2;
+    for (int octant = 0; octant < 8; ++octant) {
+      const int dx = octant >> 2, dy = octant >> 1 & 1, dz = octant & 1;
+      const auto low = [&](int axis, int d) { return part.low[axis] + (d != 0 ? half : 0.0f); };
+      const Box child{{low(0, dx), low(1, dy), low(2, dz)}, half};
+      self(self, child, x + dx * step, y + dy * step, z + dz * step, step, candidates_of(child, candidates));
+    }
+  };
+  halve(halve, box, 0, 0, 0, cells, among);
+}
+
+void PaletteSearch::append_cell(std::uint32_t place, const Box& box, const Positions& among, int divisions) {
+  // Parts have fewer candidates only if several entries lie inside. That also bounds the number of cells.
+  const auto is_inside = [&](std::uint32_t i) {
+    const float c[3] = {entries_[i].r, entries_[i].g, entries_[i].b};
+    for (int axis = 0; axis < 3; ++axis)
+      if (c[axis] < box.low[axis] || c[axis] >= box.low[axis] + box.size) return false;
+    return true;
+  };
+  const bool is_dense =
+      among.size() > kFewCandidates && std::count_if(among.begin(), among.end(), is_inside) >= kMinInside;
+  if (is_dense && divisions < kMaxDivisions) {
+    const auto first = static_cast<std::uint32_t>(cells_.size());
+    cells_.resize(cells_.size() + cell_index(kParts, kParts, 0, 0));
+    cells_[place] = {first, kDivided};
+    return append_cells(first, box, kParts, among, divisions + 1);
   }
+  cells_[place] = {static_cast<std::uint32_t>(candidates_.size()), static_cast<std::uint32_t>(among.size())};
+  candidates_.insert(candidates_.end(), among.begin(), among.end());
 }
 
 std::uint32_t PaletteSearch::search(float r, float g, float b) const noexcept {
-  // The upper end of the range belongs to the last cell.
-  const auto cell_of = [this](float c) {
-    return std::min(static_cast<int>((c - low_) * scale_), cells_ - 1);
-  };
-  const std::size_t cell = cell_index(cells_, cell_of(r), cell_of(g), cell_of(b));
-  const std::uint32_t* candidate = candidates_.data() + cell_begin_[cell];
-  const std::uint32_t* const end = candidates_.data() + cell_begin_[cell + 1];
+  // Place in cells; the upper end of the range belongs to the last cell.
+  float x = (r - low_) * scale_, y = (g - low_) * scale_, z = (b - low_) * scale_;
+  const int last = cells_per_axis_ - 1;
+  int cx = std::min(static_cast<int>(x), last), cy = std::min(static_cast<int>(y), last),
+      cz = std::min(static_cast<int>(z), last);
+  Cell cell = cells_[cell_index(cells_per_axis_, cx, cy, cz)];
+  while (cell.count == kDivided) {
+    const auto part = [](float& position, int& index) {
+      position = (position - static_cast<float>(index)) * kParts;
+      index = std::clamp(static_cast<int>(position), 0, kParts - 1);
+    };
+    part(x, cx);
+    part(y, cy);
+    part(z, cz);
+    cell = cells_[cell.first + cell_index(kParts, cx, cy, cz)];
+  }
+  const std::uint32_t* candidate = candidates_.data() + cell.first;
+  const std::uint32_t* const end = candidate + cell.count;
   std::uint32_t nearest = *candidate;
   float nearest_distance = kMaxSquaredDistance;
   for (; candidate != end; ++candidate) {

@@ -53,6 +53,50 @@ HWY_INLINE Int pack_unit_colors(const TileFrame& frame, const ShadingBatch& batc
   return hn::Or(hn::Or(red, green), level(b, layout.b_bits));
 }
 
+/// Thresholds of a chunk of a block. @param x, y  the block's top left pixel in the frame
+HWY_INLINE Float dither_thresholds(const DitherPattern& pattern, int x, int y, int chunk) {
+  alignas(64) float thresholds[kLanes];
+  const int first = chunk * kLanes;
+  if constexpr (kLanes >= kBlockSize) {
+    for (int row = 0; row < kLanes / kBlockSize; ++row)
+      std::copy_n(pattern.four_from(x, y + first / kBlockSize + row), kBlockSize,
+                  thresholds + row * kBlockSize);
+  } else {
+    for (int l = 0; l < kLanes; ++l)
+      thresholds[l] = pattern.at(x + (first + l) % kBlockSize, y + (first + l) / kBlockSize);
+  }
+  return hn::Load(kFloat, thresholds);
+}
+
+/// Palette entries nearest to colours 0..1: those of dithered_entry(), or without dither the nearest.
+/// @param dither   null: none, and thresholds are ignored
+/// @param covered  points that need an entry, one bit each
+HWY_INLINE Int nearest_entries(const PaletteSearch& search, const ColorDither* dither, const Colors& colors,
+                               Float threshold, std::uint32_t covered) {
+  alignas(64) float c[3][kLanes];
+  alignas(64) float t[kLanes];
+  alignas(64) std::int32_t packed[kLanes] = {};
+  for (int k = 0; k < 3; ++k) hn::Store(colors.c[k], kFloat, c[k]);
+  hn::Store(threshold, kFloat, t);
+  for (int l = 0; l < kLanes; ++l) {
+    if ((covered >> l & 1) == 0) continue;
+    packed[l] = static_cast<std::int32_t>(
+        dither != nullptr ? dithered_entry(*dither, search, c[0][l], c[1][l], c[2][l], t[l])
+                          : search.nearest(c[0][l], c[1][l], c[2][l]));
+  }
+  return hn::Load(kInt, packed);
+}
+
+/// pack_unit_colors() with a dither. @param threshold  of the points
+HWY_INLINE Int pack_dithered_colors(const TileFrame& frame, const ColorDither& dither,
+                                    const ShadingBatch& batch, int first, std::uint32_t covered,
+                                    Float threshold) {
+  Colors colors{};
+  for (int c = 0; c < 3; ++c) colors.c[c] = hn::Load(kFloat, batch.field[kColorR + c] + first);
+  if (frame.layout.index) return nearest_entries(*frame.palette_search, &dither, colors, threshold, covered);
+  return pack_colors(frame.layout, colors, threshold, &dither);
+}
+
 /// Masked indices, rounded like quantize_index(). An extrapolated index wraps around: beyond the ends of a
 /// line, and where a sample is covered but not the pixel's centre.
 HWY_INLINE Int pack_indices(const ColorLayout& layout, Float interpolated) {

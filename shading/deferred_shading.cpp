@@ -127,14 +127,20 @@ HWY_INLINE void store_batch(TileContext& context, PixelBatch& pixels) {
     for (int slot = 0; slot < pixels.blocks; ++slot)
       store_normals(context, pixels.index[slot], pixels.covered[slot], slot * kBlockPixels);
   const Int writable = splat(static_cast<std::int32_t>(draw.write_mask));
+  const bool is_dithered = draw.dither != nullptr && pixels.packing == BatchSurface::Packing::unit;
+  const auto packed = [&](int slot, int chunk, std::uint32_t covered) HWY_ATTR {
+    const int first = slot * kBlockPixels + chunk * kLanes;
+    if (!is_dithered) return pack_batch_colors(context.frame, pixels, batch, first, covered);
+    const Float threshold = dither_thresholds(draw.dither->pattern(), context.tile_x + pixels.bx[slot],
+                                              context.tile_y + pixels.by[slot], chunk);
+    return pack_dithered_colors(context.frame, *draw.dither, batch, first, covered, threshold);
+  };
   for (int slot = 0; slot < pixels.blocks; ++slot) {
     context.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(pixels.covered[slot]));
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       const std::uint32_t covered_lanes = chunk_bits(pixels.covered[slot], chunk);
       if (covered_lanes == 0) continue;
-      const int first = slot * kBlockPixels + chunk * kLanes;
-      store_packed(context.color + pixels.index[slot] + chunk * kLanes,
-                   pack_batch_colors(context.frame, pixels, batch, first, covered_lanes),
+      store_packed(context.color + pixels.index[slot] + chunk * kLanes, packed(slot, chunk, covered_lanes),
                    mask_from_bits(covered_lanes), writable);
     }
   }
@@ -153,7 +159,7 @@ HWY_INLINE void gather_block_coordinates(const TileContext& context, PixelBatch&
   }
 }
 
-/// Stores the lit colours of the cells in the pixels of the blocks. @pre the surface has no texture
+/// Stores the lit colours of the cells in the pixels of the blocks. @pre no texture and no dither
 HWY_INLINE void store_cells(TileContext& context, const PixelBatch& pixels, const CoarseBlocks& coarse,
                             const CellBatch& cells) {
   alignas(64) std::int32_t packed[kBatchPoints];
@@ -173,9 +179,9 @@ HWY_INLINE void store_cells(TileContext& context, const PixelBatch& pixels, cons
   }
 }
 
-/// Textures and stores the pixels of the blocks, kBatchBlocks at a time.
-HWY_INLINE void store_textured_cells(TileContext& context, PixelBatch& pixels, const CoarseBlocks& coarse,
-                                     const CellBatch& cells) {
+/// Textures, dithers and stores the pixels of the blocks, kBatchBlocks at a time.
+HWY_INLINE void store_cell_pixels(TileContext& context, PixelBatch& pixels, const CoarseBlocks& coarse,
+                                  const CellBatch& cells) {
   for (int first = 0; first < coarse.count; first += kBatchBlocks) {
     const int count = std::min(coarse.count - first, kBatchBlocks);
     std::copy_n(coarse.index + first, count, pixels.index);
@@ -196,8 +202,10 @@ HWY_INLINE void store_textured_cells(TileContext& context, PixelBatch& pixels, c
 HWY_NOINLINE void shade_coarse_blocks(TileContext& context, PixelBatch& pixels, CoarseBlocks& coarse) {
   CellBatch& cells = context.memory.cells;
   light_cells(pixels, cells);
-  if (pixels.texture == nullptr) store_cells(context, pixels, coarse, cells);
-  else store_textured_cells(context, pixels, coarse, cells);
+  const bool has_equal_pixels =
+      pixels.texture == nullptr && context.frame.draws[pixels.draw].dither == nullptr;
+  if (has_equal_pixels) store_cells(context, pixels, coarse, cells);
+  else store_cell_pixels(context, pixels, coarse, cells);
   coarse.count = cells.count = 0;
 }
 

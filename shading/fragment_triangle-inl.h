@@ -96,7 +96,6 @@ struct FragmentTriangle {
   Float textured_alpha(Float untextured, int chunk) const;
   Colors colors(int bx, int by, int chunk) const;
   Float thresholds(int bx, int by, int chunk) const;
-  Int nearest_entries(const Colors& colors, Float threshold, std::uint32_t lanes) const;
   Int packed(Colors source, Float threshold, std::uint32_t lanes, Int stored) const;
 };
 

@@ -178,34 +178,7 @@ HWY_INLINE Colors FragmentTriangle::colors(int bx, int by, int chunk) const {
 /// Rounding thresholds of a chunk: 0.5, or the dither pattern.
 HWY_INLINE Float FragmentTriangle::thresholds(int bx, int by, int chunk) const {
   if (ops.dither == nullptr) return splat(0.5f);
-  alignas(64) float thresholds[kLanes];
-  for (int l = 0; l < kLanes; ++l) {
-    const int pixel = chunk * kLanes + l;
-    const int x = context.tile_x + bx + pixel % 4;
-    const int y = context.tile_y + by + pixel / 4;
-    thresholds[l] = ops.dither->pattern().at(x, y);
-  }
-  return hn::Load(kFloat, thresholds);
-}
-
-/// Palette entries nearest to the colours. With a dither, the threshold offsets the colours within the
-/// palette's spread, or chooses one of two mixed entries.
-/// @param lanes  lanes that need an entry
-HWY_INLINE Int FragmentTriangle::nearest_entries(const Colors& colors, Float threshold,
-                                                 std::uint32_t lanes) const {
-  alignas(64) float c[3][kLanes];
-  alignas(64) float t[kLanes];
-  alignas(64) std::int32_t packed[kLanes] = {};
-  for (int k = 0; k < 3; ++k) hn::Store(colors.c[k], kFloat, c[k]);
-  hn::Store(threshold, kFloat, t);
-  for (int l = 0; l < kLanes; ++l) {
-    if ((lanes >> l & 1) == 0) continue;
-    packed[l] = static_cast<std::int32_t>(
-        ops.dither != nullptr
-            ? dithered_entry(*ops.dither, *context.frame.palette_search, c[0][l], c[1][l], c[2][l], t[l])
-            : context.frame.palette_search->nearest(c[0][l], c[1][l], c[2][l]));
-  }
-  return hn::Load(kInt, packed);
+  return dither_thresholds(ops.dither->pattern(), context.tile_x + bx, context.tile_y + by, chunk);
 }
 
 /// Packed colours to store in one sample.
@@ -221,8 +194,9 @@ HWY_INLINE Int FragmentTriangle::packed(Colors source, Float threshold, std::uin
     return ops.logic == LogicOp::copy ? result : logic_op_lanes(ops.logic, result, stored);
   }
   if (ops.blend) source = blend_lanes(ops, source, unpack_colors(layout, stored));
-  const Int result = layout.index ? nearest_entries(source, threshold, lanes)
-                                  : pack_colors(layout, source, threshold, ops.dither);
+  const Int result =
+      layout.index ? nearest_entries(*context.frame.palette_search, ops.dither, source, threshold, lanes)
+                   : pack_colors(layout, source, threshold, ops.dither);
   return ops.logic == LogicOp::copy ? result : logic_op_lanes(ops.logic, result, stored);
 }
 

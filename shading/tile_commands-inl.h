@@ -39,19 +39,29 @@ inline PixelRect rect_in_tile(const PixelRect& rect, const TileGrid& grid, int t
   return in_tile.empty() ? PixelRect{} : in_tile;
 }
 
+/// Fills the pixels of `rect` with the pattern of a dithered clear.
+inline void fill_pattern(const TileContext& context, std::uint32_t* pixels, const TileClear& clear,
+                         const PixelRect& rect) {
+  const TileFrame& frame = context.frame;
+  const std::uint32_t* const pattern = frame.clear_patterns + clear.first_of_pattern;
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    const int row = (context.tile_y + y) & (frame.clear_pattern_rows - 1);
+    for (int x = rect.x0, count; x < rect.x1; x += count) {
+      // Four pixels of a block are adjacent, in the pattern too.
+      count = std::min(kBlockSize - x % kBlockSize, rect.x1 - x);
+      const int column = (context.tile_x + x) & (frame.clear_pattern_columns - 1);
+      const std::uint32_t* const from = pattern + row * frame.clear_pattern_columns + column;
+      std::uint32_t* const to = pixels + tile_index(x, y, context.tile_size);
+      if (count == kBlockSize) std::copy_n(from, kBlockSize, to);
+      else std::copy_n(from, count, to);
+    }
+  }
+}
+
 inline void clear_pixels(const TileContext& context, const TileAttachments& pixels, const TileClear& clear,
                          const PixelRect& rect) {
   if (clear.color && !clear.dithered) fill_rect(pixels.color, clear.packed_color, rect, context.tile_size);
-  if (clear.color && clear.dithered) {
-    const std::uint32_t* const pattern = context.frame.clear_patterns + clear.first_of_pattern;
-    const int size = context.frame.clear_pattern_size;
-    for (int y = rect.y0; y < rect.y1; ++y)
-      for (int x = rect.x0; x < rect.x1; ++x) {
-        const int row = (context.tile_y + y) & (size - 1);
-        const int column = (context.tile_x + x) & (size - 1);
-        pixels.color[tile_index(x, y, context.tile_size)] = pattern[row * size + column];
-      }
-  }
+  if (clear.color && clear.dithered) fill_pattern(context, pixels.color, clear, rect);
   if (clear.depth) fill_rect(pixels.depth, clear.depth_key, rect, context.tile_size);
   if (clear.stencil) fill_rect(pixels.stencil, clear.stencil_value, rect, context.tile_size);
 }

@@ -79,6 +79,9 @@ struct TileDraw {
   /// Null: none. @pre with a texture, `deferred` or `ops` is set, and colours are neither scaled nor packed
   const DrawTexture* texture = nullptr;
   int cell_size = 0;  ///< per_pixel, triangles: side of the cells that are lit, 2 or 4; 0: no cells
+  /// Dither of the visible pixels; null: none. @pre if set: without `ops`, deferred, one sample per pixel,
+  /// colours 0..1
+  const ColorDither* dither = nullptr;
   bool captures_normals = false;  ///< per_pixel: normals are also stored in the workspace's normals()
 
   /// Triangles behind everything in their tile are left out before they are set up. @pre filled triangles
@@ -114,7 +117,7 @@ struct TileClear {
   bool color = false, depth = false, stencil = false, accumulation = false;
   std::uint32_t packed_color = 0;
   bool dithered = false;  ///< a pattern of the frame replaces packed_color
-  /// Place in TileFrame::clear_patterns of packed colours by raster row and column modulo the dither's size.
+  /// Place in TileFrame::clear_patterns of packed colours by raster row and column, as in DitherPattern.
   std::uint32_t first_of_pattern = 0;
   std::int32_t depth_key = 0;
   std::int32_t stencil_value = 0;
@@ -132,8 +135,8 @@ struct TileFrame {
   std::uint32_t draw_count = 0;
   const TileClear* clears = nullptr;
   std::uint32_t clear_count = 0;
-  const std::uint32_t* clear_patterns = nullptr;  ///< patterns of dithered clears
-  int clear_pattern_size = 1;                     ///< rows and columns of each, a power of two
+  const std::uint32_t* clear_patterns = nullptr;          ///< patterns of dithered clears
+  int clear_pattern_rows = 1, clear_pattern_columns = 4;  ///< powers of two
   const TileAccumulation* accumulations = nullptr;
   std::uint32_t accumulation_count = 0;
   const BinBatches* batches = nullptr;  ///< @pre index_batches() has run for the tile

@@ -32,6 +32,7 @@ void show_row(const ImageTarget& image, const ScanOut& scan_out, const std::uint
 void FrameBufferState::build_dither() {
   if (format.dither == Dither::none) return;
   if (!is_error_diffusion(format.dither)) {
+    dithered_color.pattern.clear();
     dither =
         std::make_unique<ColorDither>(format.dither, dither_light(), stored_layout, palette, format.height);
     return;

@@ -49,6 +49,12 @@ struct Attachment {
   }
 };
 
+/// A colour of 0 to 1 under an ordered dither.
+struct DitheredColor {
+  std::array<float, 4> color{};        ///< r g b a
+  std::vector<std::uint32_t> pattern;  ///< packed colours, see DitherPattern; empty: none
+};
+
 struct FrameBufferState {
   FrameBufferFormat format;
   ColorLayout layout;  ///< colours that frames draw; with error diffusion working_layout(stored_layout)
@@ -57,6 +63,7 @@ struct FrameBufferState {
   Palette palette;                                ///< index mode
   std::unique_ptr<PaletteSearch> palette_search;  ///< built on first use
   std::unique_ptr<ColorDither> dither;            ///< ordered dither; null: none
+  DitheredColor dithered_color;                   ///< the last one of a clear
   std::unique_ptr<ErrorDiffusion> diffusion;      ///< null: none
   std::vector<std::uint32_t> diffusion_band;      ///< rows of drawn, then of stored colours
   Attachment color;                               ///< as drawn, in `layout`
@@ -92,9 +99,8 @@ struct FrameBufferState {
   const PaletteSearch* ensure_palette_search() {
     if (!layout.index) return nullptr;
     if (!palette_search)
-      palette_search = std::make_unique<PaletteSearch>(
-          palette, dither ? PaletteSearchRange::dithered : PaletteSearchRange::unit,
-          level_values(dither ? dither_light() : std::nullopt));
+      palette_search = std::make_unique<PaletteSearch>(palette, dither ? dither->spread() / 2 : 0,
+                                                       level_values(dither ? dither_light() : std::nullopt));
     return palette_search.get();
   }
   /// The curve of DitherSpace::light; absent for DitherSpace::levels.

@@ -267,9 +267,17 @@ int cell_size(const DrawPlan& plan, ShadingCap cap) {
   return cap == ShadingCap::phong_4x4 ? 4 : 0;
 }
 
+/// Dithers visible pixels in place of fragments: an ordered dither depends on colour and position alone.
+void defer_dither(DrawPlan& plan) {
+  if (!plan.can_defer_dither) return;
+  plan.defers_dither = plan.unit_colors = true;
+  plan.has_ops = plan.float_colors = false;
+}
+
 /// Phong shading: lighting at the pixels, or once per cell of pixels.
 void plan_pixel_lighting(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
                          const EffectNotes& notes) {
+  defer_dither(plan);
   plan.source = ColorSource::per_pixel;
   plan.deferred = !prevents_deferral(plan, layout);
   plan_texturing(plan, false);
@@ -304,6 +312,7 @@ void plan_flat_colors(DrawPlan& plan, std::string_view cause, const EffectNotes&
 /// Colours of the vertices, interpolated.
 void plan_interpolated_colors(DrawPlan& plan, const ColorLayout& layout, bool sampled, std::string_view cause,
                               const EffectNotes& notes) {
+  defer_dither(plan);
   plan.source = ColorSource::interpolated;
   const bool inside_triangles = plan.topology == Topology::triangles && !sampled;
   plan_texturing(plan, inside_triangles && !plan.outlines);  // otherwise colours may be extrapolated

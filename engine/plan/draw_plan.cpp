@@ -112,6 +112,7 @@ void plan_operations(DrawPlan& plan, const RecordedDraw& draw, const FrameBuffer
   const bool only_tests_stencil = fragments.is_stencil_only && !fragments.is_elided && !plan.has_offset();
   plan.float_colors = plan.has_ops && !(only_tests_stencil && fills_triangles && !has_samples);
   plan.unit_colors = fragments.is_elided && !plan.float_colors;
+  plan.can_defer_dither = fragments.only_dithers && fills_triangles && !has_samples && !plan.has_offset();
   if (has_samples) notes.add({.effect = Effect::multisampling, .samples = target.format.samples});
 }
 

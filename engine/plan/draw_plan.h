@@ -63,6 +63,9 @@ struct DrawPlan {
   /// Colours are 0..1 at the pixels, as operations would have taken them that are left out because of the
   /// draw's data. Colours in levels round differently.
   bool unit_colors = false;
+  /// `ops` has only a dither, which can be applied where visible pixels are shaded.
+  bool can_defer_dither = false;
+  bool defers_dither = false;  ///< visible pixels are dithered; fragments go through no operations
   FragmentOps ops;
   bool uses_stencil = false;  ///< tests or writes the stencil buffer
   float offset_factor = 0;

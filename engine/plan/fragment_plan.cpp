@@ -124,6 +124,8 @@ FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& targ
   const bool depends_on_color = ops.alpha_test || changes_color || stores_alpha;
   plan.needed = ops.stencil || depends_on_color;
   plan.is_stencil_only = ops.stencil && !depends_on_color;
+  const bool reads_or_tests = ops.stencil || ops.alpha_test || ops.blend || ops.logic != LogicOp::copy;
+  plan.only_dithers = ops.dither != nullptr && !reads_or_tests && !stores_alpha;
   return plan;
 }
 

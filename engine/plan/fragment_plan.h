@@ -15,6 +15,7 @@ struct FragmentPlan {
   bool needed = false;           ///< false: fragments go through the depth test alone
   bool is_stencil_only = false;  ///< `ops` is a stencil test and nothing else
   bool uses_stencil = false;     ///< tests or writes the stencil buffer
+  bool only_dithers = false;     ///< `ops` has a dither, and nothing else
   bool is_elided = false;        ///< an operation is left out because of the fragments' alpha
 };
 

@@ -17,25 +17,34 @@ PixelRect rect_of(const std::optional<Rect>& scissor, const FrameBufferState& ta
   return scissor ? intersect(whole, raster_rect(*scissor, target.format.height)) : whole;
 }
 
-/// Packed colours of a dithered clear, by raster row and column. Appends nothing if all are equal.
-void set_dithered_color(TileClear& to, const Color& c, FrameBufferState& target,
-                        std::vector<std::uint32_t>& patterns) {
+/// Packed colours of a colour by position, as in DitherPattern. The last ones are kept.
+const std::vector<std::uint32_t>& dithered_pattern(const Color& c, FrameBufferState& target) {
+  DitheredColor& kept = target.dithered_color;
+  const std::array<float, 4> color{c.r, c.g, c.b, c.a};
+  if (!kept.pattern.empty() && kept.color == color) return kept.pattern;
   const ColorDither& dither = *target.dither;
   const PaletteSearch* const search = target.ensure_palette_search();
-  const int size = dither.pattern().size();
-  const auto packed_at = [&](int x, int y) {
-    const float threshold = dither.pattern().at(x, y);
-    return search != nullptr ? dithered_entry(dither, *search, c.r, c.g, c.b, threshold)
-                             : pack_color(target.layout, {c.r, c.g, c.b, c.a}, threshold, &dither);
-  };
-  to.packed_color = packed_at(0, 0);
-  to.first_of_pattern = static_cast<std::uint32_t>(patterns.size());
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      patterns.push_back(packed_at(x, y));
-      to.dithered |= patterns.back() != to.packed_color;
+  kept.pattern.clear();
+  for (int y = 0; y < dither.pattern().size(); ++y)
+    for (int x = 0; x < dither.pattern().columns(); ++x) {
+      const float threshold = dither.pattern().at(x, y);
+      kept.pattern.push_back(search != nullptr ? dithered_entry(dither, *search, c.r, c.g, c.b, threshold)
+                                               : pack_color(target.layout, color, threshold, &dither));
     }
-  if (!to.dithered) patterns.resize(to.first_of_pattern);
+  kept.color = color;
+  return kept.pattern;
+}
+
+/// Appends the pattern of a dithered clear, unless all of its colours are equal.
+void set_dithered_color(TileClear& to, const Color& c, FrameBufferState& target,
+                        std::vector<std::uint32_t>& patterns) {
+  const std::vector<std::uint32_t>& pattern = dithered_pattern(c, target);
+  to.packed_color = pattern.front();
+  to.dithered = std::any_of(pattern.begin(), pattern.end(),
+                            [&](std::uint32_t packed) { return packed != to.packed_color; });
+  if (!to.dithered) return;
+  to.first_of_pattern = static_cast<std::uint32_t>(patterns.size());
+  patterns.insert(patterns.end(), pattern.begin(), pattern.end());
 }
 
 void set_clear_color(TileClear& to, const Clear& clear, FrameBufferState& target,

@@ -206,8 +206,9 @@ class DrawCounter {
       counts_[PriceItem::fragment_operations_pixel] += fragments();
       counts_[PriceItem::fragment_passed] += shaded();
     }
-    if (!plan_.has_ops) return;
     const FragmentOps& ops = plan_.ops;
+    if (plan_.defers_dither) counts_[PriceItem::dither] += shaded();
+    if (!plan_.has_ops) return;
     if (ops.alpha_test) counts_[PriceItem::alpha_test] += fragments();
     if (ops.blend) counts_[PriceItem::blending] += shaded();
     if (ops.logic != LogicOp::copy) counts_[PriceItem::logic_op] += shaded();

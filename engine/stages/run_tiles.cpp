@@ -51,7 +51,10 @@ TileFrame RendererState::tile_frame(const FrameContext& frame) {
   tiles.clears = commands.clears.data();
   tiles.clear_count = static_cast<std::uint32_t>(commands.clears.size());
   tiles.clear_patterns = commands.clear_patterns.data();
-  if (frame.target.dither) tiles.clear_pattern_size = frame.target.dither->pattern().size();
+  if (frame.target.dither) {
+    tiles.clear_pattern_rows = frame.target.dither->pattern().size();
+    tiles.clear_pattern_columns = frame.target.dither->pattern().columns();
+  }
   tiles.accumulations = commands.accumulations.data();
   tiles.accumulation_count = static_cast<std::uint32_t>(commands.accumulations.size());
   tiles.batches = &bin_stage.batches();

@@ -70,7 +70,7 @@ TEST(PaletteSearch, UnclampedMatchesExhaustiveSearchOutsideTheCube) {
   std::size_t differing = 0;
   for (const Palette& palette : palettes()) {
     if (palette.entries.empty() || palette.entries.size() > 300) continue;
-    const PaletteSearch search(palette, PaletteSearchRange::dithered);
+    const PaletteSearch search(palette, 0.5f);
     std::mt19937 random(6);
     for (int i = 0; i < 5000; ++i) {
       const float color[3] = {2 * component(random) - 0.5f, 2 * component(random) - 0.5f,
