@@ -38,6 +38,7 @@
 #include "frame.hpp"
 #include "framebuffer.hpp"
 #include "mesh.hpp"
+#include "palettes.hpp"
 #include "prices.hpp"
 #include "primitives.hpp"
 #include "quality.hpp"
