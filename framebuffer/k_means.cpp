@@ -29,7 +29,8 @@ void move_unused(const ColorPoints& points, const std::vector<double>& weights, 
 }
 
 /// Moves each centre to the mean of its points.
-void move_to_means(const ColorPoints& points, NearestCenters& nearest, std::vector<Oklab>& centers) {
+void move_to_means(const ColorPoints& points, UnusedCenters unused, NearestCenters& nearest,
+                   std::vector<Oklab>& centers) {
   std::vector<Oklab> sums(centers.size());
   std::vector<double> weights(centers.size());
   for (std::size_t i = 0; i < points.count; ++i) {
@@ -41,19 +42,19 @@ void move_to_means(const ColorPoints& points, NearestCenters& nearest, std::vect
   }
   for (std::size_t k = 0; k < centers.size(); ++k)
     if (weights[k] > 0) centers[k] = {sums[k].l / weights[k], sums[k].a / weights[k], sums[k].b / weights[k]};
-  move_unused(points, weights, nearest, centers);
+  if (unused == UnusedCenters::move) move_unused(points, weights, nearest, centers);
 }
 
 }  // namespace
 
 std::vector<Oklab> k_means(const ColorPoints& points, std::vector<Oklab> centers, int max_rounds,
-                           InstructionSet isa) {
+                           InstructionSet isa, UnusedCenters unused) {
   TESSERA_ASSERT(!centers.empty());
   NearestCenters nearest;
   for (int round = 0; round < max_rounds; ++round) {
     const std::vector<Oklab> before = centers;
     nearest_centers(points, ColorPoints(std::span<const Oklab>(centers)), isa, nearest);
-    move_to_means(points, nearest, centers);
+    move_to_means(points, unused, nearest, centers);
     if (centers == before) break;
   }
   return centers;

@@ -16,7 +16,7 @@ namespace {
 constexpr int kSamplesPerSegment = 64;
 // Distances along ramps, in OKLab.
 constexpr double kEndsOnly = 16;            // longer than every ramp of some corners
-constexpr double kCoarseSpacing = 0.05;     // for more ends than entries
+constexpr double kPixelSpacing = 0.05;      // weighted_picture()
 constexpr double kMinSpacing = 1.0 / 1024;  // neighbours are less than a level of 255 apart
 constexpr int kBisections = 24;
 
@@ -89,13 +89,22 @@ std::vector<Rgb8> distinct_shown(const ConverterColors& converter, const std::ve
   return shown;
 }
 
-/// A picture with a pixel of each colour. Evenly spaced colours weigh ramps by their lengths.
 ColorCounts picture_of(const std::vector<Rgb8>& colors) {
   std::vector<std::uint32_t> words;
   for (const Rgb8& c : colors) words.push_back(std::uint32_t{c.r} << 16 | std::uint32_t{c.g} << 8 | c.b);
   ColorCounts picture;
   picture.add(words);
   return picture;
+}
+
+/// Pixels in proportion to the lengths of the ramps. A single colour has as many as a ramp of length 1,
+/// because it may be the background.
+ColorCounts weighted_picture(const std::vector<MeasuredRamp>& ramps) {
+  std::vector<Rgb8> colors = spaced_colors(ramps, kPixelSpacing);
+  for (const MeasuredRamp& ramp : ramps)
+    if (ramp.length() == 0)
+      colors.insert(colors.end(), static_cast<std::size_t>(1 / kPixelSpacing), rounded(ramp.at(0)));
+  return picture_of(colors);
 }
 
 }  // namespace
@@ -108,8 +117,7 @@ std::vector<Rgb8> ramp_palette(const std::vector<ColorRamp>& ramps, const Palett
     return distinct_shown(converter, spaced_colors(measured, spacing));
   };
   std::vector<Rgb8> chosen = colors_at(kEndsOnly);
-  if (chosen.size() > shape.entries)
-    return adaptive_palette(picture_of(colors_at(kCoarseSpacing)), shape, isa);
+  if (chosen.size() > shape.entries) return adaptive_palette(weighted_picture(measured), shape, isa);
   // Bisection for the smallest spacing whose colours fit.
   double fits = kEndsOnly, too_close = 0;
   for (int i = 0; i < kBisections && fits > kMinSpacing; ++i) {

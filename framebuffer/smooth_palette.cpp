@@ -36,10 +36,15 @@ void SmoothEntries::start(const ColorCounts& picture) {
 }
 
 std::vector<Oklab> SmoothEntries::goals(const ColorCounts& picture) const {
-  const ColorPoints points(picture.at_most(palette_color_limit(shape_.entries)));
+  std::vector<WeightedColor> colors = picture.at_most(palette_color_limit(shape_.entries));
+  // No entry can reach the other colours, so their errors must not attract unused entries.
+  for (WeightedColor& c : colors) c.color = converter_.shown(converter_.levels_of(c.color));
+  const ColorPoints points(colors);
   std::vector<Oklab> centers;
   for (const Rgb8& entry : entries_) centers.push_back(oklab_from_rgb8(entry));
-  return k_means(points, std::move(centers), kRoundsPerFrame, isa_);
+  // Unused entries get their goals last: on their way they cannot serve the points that they are sent to.
+  centers = k_means(points, std::move(centers), kRoundsPerFrame, isa_, UnusedCenters::keep);
+  return k_means(points, std::move(centers), 1, isa_, UnusedCenters::move);
 }
 
 Rgb8 SmoothEntries::moved(Rgb8 entry, const Oklab& goal) {

@@ -22,11 +22,11 @@ inline constexpr int kMaxChosenEntries = 4096;  ///< most entries of a chosen pa
 /// Size and colours of a palette that is to be chosen.
 struct PaletteRequest {
   int count = 256;  ///< entries, 1 to kMaxChosenEntries
-  /// Bits per component of the colours that entries may have: 1 to 8. 2: EGA, 4: Amiga, 6: VGA, 8: all
-  /// colours. Level v is shown as round(255 v / (2^bits - 1)).
+  /// Bits per component of the colours that entries may have: 1 to 8. 2: EGA, 4: Amiga, 6: VGA, 8: all.
+  /// Level v is shown as round(255 v / (2^bits - 1)).
   int component_bits = 8;
 };
-/// The palettes of a display mode: 2^color_bits entries, at most kMaxChosenEntries, of its palette_component_bits.
+/// The palettes that a display mode takes: at most 2^color_bits and kMaxChosenEntries entries.
 /// @throws Error  for a mode whose palette is fixed or that has none; names what it has
 TESSERA_API PaletteRequest palette_request(const DisplayMode& mode);
 

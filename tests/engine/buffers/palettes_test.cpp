@@ -185,7 +185,7 @@ TEST(SmoothPalette, FollowsATurningTeapot) {
         chosen += std::pow(nearest_distance(own, color), 2);
       }
     }
-    EXPECT_LE(followed, 1.5 * chosen) << bits;
+    EXPECT_LE(followed, 1.3 * chosen) << bits;
   }
 }
 
