@@ -12,6 +12,7 @@ std::vector<WorkloadEntry> lit_workloads();
 std::vector<WorkloadEntry> point_and_line_workloads();
 std::vector<WorkloadEntry> frame_buffer_workloads();
 std::vector<WorkloadEntry> plane_store_workloads();
+std::vector<WorkloadEntry> palette_workloads();
 std::vector<WorkloadEntry> scene_workloads();
 
 // Workloads that scale with one parameter, for --growth.

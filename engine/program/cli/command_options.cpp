@@ -119,9 +119,13 @@ void add_scene_overrides(CLI::App& command, SceneOverrides& overrides) {
   command.add_option("--color-bits", overrides.color_bits, "colour planes: 1 .. 24")
       ->option_text("N")
       ->transform(integer_from(1, 24));
-  command.add_option("--palette", overrides.palette, "palette; the colour buffer then holds indices")
-      ->option_text("bw|gray|ega16|vga256|web216")
-      ->check(one_of({"bw", "gray", "ega16", "vga256", "web216"}));
+  command
+      .add_option(
+          "--palette", overrides.palette,
+          "palette; the colour buffer then holds indices. adaptive: chosen for the picture at 24 bits; "
+          "ramps: chosen for the materials and lights")
+      ->option_text("bw|gray|ega16|vga256|web216|adaptive|ramps")
+      ->check(one_of({"bw", "gray", "ega16", "vga256", "web216", "adaptive", "ramps"}));
   std::vector<Choice<Dither>> dithers;
   for (const auto& [name, dither] : kDithers) dithers.push_back({name, dither});
   add_choice<std::optional<Dither>, Dither>(command, "--dither", overrides.dither, dithers,
@@ -153,6 +157,14 @@ void add_mode(CLI::App& command, SceneOverrides& overrides) {
       ->option_text("NAME");
   command.add_flag("--reduce", overrides.reduce,
                    "draw at 24 bits and reduce the picture to the colours of the display mode");
+}
+
+void add_palette_over(CLI::App& command, SceneOverrides& overrides) {
+  add_choice<std::optional<PaletteOver>, PaletteOver>(
+      command, "--palette-over", overrides.palette_over,
+      {{"animation", PaletteOver::animation}, {"frame", PaletteOver::frame}, {"smooth", PaletteOver::smooth}},
+      "pictures that share a chosen palette: all of the animation; each frame has its own; or its own whose "
+      "entries move little from frame to frame (adaptive only); default: animation");
 }
 
 void add_dump(CLI::App& command, RenderRequest& request) {
@@ -272,6 +284,7 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   add_output(*command, request);
   add_scene_overrides(*command, request.overrides);
   add_mode(*command, request.overrides);
+  add_palette_over(*command, request.overrides);
   add_dump(*command, request);
   add_planes(*command, request);
   add_view(*command, request.overrides);

@@ -12,6 +12,7 @@
 
 #include "engine/program/cli/explain_command.h"
 #include "engine/program/cli/file_guard.h"
+#include "engine/program/cli/frame_palettes.h"
 #include "engine/program/cli/indexed_frame.h"
 #include "engine/program/cli/memory_dump.h"
 #include "engine/program/cli/printable.h"
@@ -188,14 +189,17 @@ int render(RenderRequest request) {
   Renderer renderer(request.options);
   run.options = renderer.options();
 
+  label = "choosing the palette";
+  FramePalettes palettes(input, request.frames, renderer);
   int exit_code = 0;
   for (int f = 0; f < request.frames; ++f) {
     const bool is_last = f + 1 == request.frames;
     label = request.frames > 1 ? "frame " + std::to_string(f + 1) + " of " + std::to_string(request.frames)
                                : "rendering";
-    input.move_to(request.frames > 1 ? static_cast<double>(f) / (request.frames - 1) : 0);
+    input.move_to(frame_time(f, request.frames));
     const Scene& scene = input.scene();
     SceneBuffers buffers(scene);
+    if (const auto palette = palettes.next(scene, renderer)) buffers.shown().set_palette(*palette);
     Frame frame(buffers.drawn, renderer);
     Picture picture(scene.framebuffer.width, scene.framebuffer.height);
     const FrameBufferFormat& format = buffers.shown().format();

@@ -14,6 +14,7 @@ struct SceneBuffers {
   }
   /// Holds the colours of the picture.
   const FrameBuffer& shown() const { return reduced ? *reduced : drawn; }
+  FrameBuffer& shown() { return reduced ? *reduced : drawn; }
   const FrameBuffer& holding(Buffer which) const { return which == Buffer::color ? shown() : drawn; }
 
   FrameBuffer drawn;

@@ -33,7 +33,7 @@ SceneInput::SceneInput(const std::string& path, const SceneOverrides& overrides)
 }
 
 void SceneInput::move_to(double time) {
-  if (!file_ || !file_->is_animated()) return;
+  if (!is_animated()) return;
   scene_ = file_->at(time);
   apply(overrides_, scene_);
 }

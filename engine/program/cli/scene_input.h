@@ -18,6 +18,8 @@ class SceneInput {
   SceneInput(const std::string& path, const SceneOverrides& overrides);
 
   const Scene& scene() const { return scene_; }
+  /// Returns whether the scene changes over time.
+  bool is_animated() const { return file_ && file_->is_animated(); }
   /// Evaluates the scene at `time`, 0 .. 1.
   void move_to(double time);
   /// Prints the scene's warnings on stderr.

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <utility>
 
 #include "engine/program/scene/animate.h"
+#include "engine/program/scene/chosen_palette.h"
 #include "engine/program/scene/dither_names.h"
 #include "engine/program/scene/embedded.h"
 #include "engine/program/scene/scene_mode.h"
@@ -20,9 +22,15 @@ using json::Value;
 void read_palette(const Value& value, Scene& scene) {
   FrameBufferFormat& format = scene.framebuffer;
   if (value.json().is_string()) {
-    scene.palette_name = value.choice<std::string>(
-        {{"bw", "bw"}, {"gray", "gray"}, {"ega16", "ega16"}, {"vga256", "vga256"}, {"web216", "web216"}},
-        {"adaptive"});
+    scene.palette_name = value.choice<std::string>({{"bw", "bw"},
+                                                    {"gray", "gray"},
+                                                    {"ega16", "ega16"},
+                                                    {"vga256", "vga256"},
+                                                    {"web216", "web216"},
+                                                    {"adaptive", ""},
+                                                    {"ramps", ""}});
+    scene.palette_source = palette_source(value.text());
+    if (scene.palette_source != PaletteSource::given) return;
     format.palette = value.checked([&] { return named_palette(scene.palette_name, format.color_bits); });
     return;
   }
@@ -39,6 +47,25 @@ void read_palette(const Value& value, Scene& scene) {
   }
 }
 
+// Gives the scene's mode the palette that read_palette() read into the frame buffer.
+void set_read_palette(Scene& scene) {
+  const std::vector<Color> entries = std::move(scene.framebuffer.palette);
+  scene.framebuffer.palette = scene.mode->palette;
+  if (scene.palette_source == PaletteSource::given) set_mode_palette(entries, scene);
+  else set_mode_palette(scene.palette_source, scene);
+  scene.palette_name.clear();
+}
+
+// Pictures of an animation that share a chosen palette.
+void read_palette_over(const Value& value, Scene& scene) {
+  if (scene.palette_source == PaletteSource::given)
+    value.refuse("needs \"palette\": \"adaptive\" or \"ramps\"");
+  scene.palette_over = value.choice<PaletteOver>({{"animation", PaletteOver::animation},
+                                                  {"frame", PaletteOver::frame},
+                                                  {"smooth", PaletteOver::smooth}});
+  value.checked([&] { check_palette_over(scene); });
+}
+
 // Size, colours and palette by a display mode.
 void read_mode(const Object& object, Scene& scene) {
   const Value mode = object.require("mode");
@@ -50,8 +77,7 @@ void read_mode(const Object& object, Scene& scene) {
       palette->refuse("the display mode has no palette: its pixels hold colour components");
     scene.framebuffer.palette.clear();
     read_palette(*palette, scene);
-    palette->checked([&] { set_mode_palette(std::vector<Color>(scene.framebuffer.palette), scene); });
-    scene.palette_name.clear();
+    palette->checked([&] { set_read_palette(scene); });
   }
   if (const auto reduce = object.find("reduce"); reduce && reduce->boolean()) reduce_to_mode(scene);
 }
@@ -86,11 +112,13 @@ void read_dither(const Object& object, FrameBufferFormat& format) {
 }
 
 void read_framebuffer(const Value& value, Scene& scene) {
-  const Object object(value, {"mode", "reduce", "width", "height", "color", "palette", "dither", "dither_in",
-                              "dither_gamma", "alpha", "depth", "stencil", "accumulation", "samples"});
+  const Object object(
+      value, {"mode", "reduce", "width", "height", "color", "palette", "palette_over", "dither", "dither_in",
+              "dither_gamma", "alpha", "depth", "stencil", "accumulation", "samples"});
   FrameBufferFormat& format = scene.framebuffer;
   if (object.has("mode")) read_mode(object, scene);
   else read_colors(object, scene);
+  if (const auto over = object.find("palette_over")) read_palette_over(*over, scene);
   if (const auto depth = object.find("depth"))
     format.depth = depth->choice<DepthFormat>({{"none", DepthFormat::none},
                                                {"unorm16", DepthFormat::unorm16},

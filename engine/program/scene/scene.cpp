@@ -1,5 +1,6 @@
 #include "engine/program/scene/scene.h"
 
+#include "engine/program/scene/chosen_palette.h"
 #include "engine/program/scene/scene_mode.h"
 
 namespace tessera::program {
@@ -45,6 +46,11 @@ int palette_bits(std::string_view name) {
   return 8;
 }
 
+PaletteSource palette_source(std::string_view name) {
+  if (name == "adaptive") return PaletteSource::adaptive;
+  return name == "ramps" ? PaletteSource::ramps : PaletteSource::given;
+}
+
 namespace {
 
 // Size, bits and palette of a scene without a display mode.
@@ -63,7 +69,10 @@ void apply_format(const SceneOverrides& overrides, Scene& scene) {
   if (overrides.palette) {
     const bool was_index = format.color_mode == ColorMode::index;
     format.color_mode = ColorMode::index;
-    scene.palette_name = *overrides.palette;
+    scene.palette_source = palette_source(*overrides.palette);
+    const bool is_given = scene.palette_source == PaletteSource::given;
+    scene.palette_name = is_given ? *overrides.palette : "";
+    if (!is_given) format.palette.clear();
     if (!was_index) format.color_bits = palette_bits(scene.palette_name);
   }
   if (overrides.color_bits) format.color_bits = *overrides.color_bits;
@@ -81,6 +90,13 @@ void apply_format(const SceneOverrides& overrides, Scene& scene) {
 void apply(const SceneOverrides& overrides, Scene& scene) {
   if (overrides.mode || scene.mode) apply_mode(overrides, scene);
   else apply_format(overrides, scene);
+  if (overrides.palette_over) {
+    if (scene.palette_source == PaletteSource::given)
+      throw Error(
+          "a choice of the pictures that share a palette needs the palette \"adaptive\" or \"ramps\"");
+    scene.palette_over = *overrides.palette_over;
+  }
+  check_palette_over(scene);
   FrameBufferFormat& stored = scene.reduced ? *scene.reduced : scene.framebuffer;
   stored.dither = overrides.dither.value_or(stored.dither);
   stored.dither_in = overrides.dither_in.value_or(stored.dither_in);

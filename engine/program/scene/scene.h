@@ -7,6 +7,7 @@
 //   record(scene, frame);  // the frame borrows from the scene, which must outlive it
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -63,11 +64,22 @@ struct SceneCommand {
   std::string pointer;  ///< JSON pointer, for messages; empty: a command of the default frame
 };
 
+/// Origin of the palette. given: named or listed in the scene, or the default. adaptive: chosen for the
+/// pictures at 24 bits. ramps: chosen for the materials and lights.
+enum class PaletteSource : std::uint8_t { given, adaptive, ramps };
+/// Pictures of an animation that share a chosen palette. animation: all. frame: none. smooth: none, but
+/// entries move little from picture to picture; adaptive only.
+enum class PaletteOver : std::uint8_t { animation, frame, smooth };
+
 struct Scene {
   std::string name;  ///< the file, for messages
   std::string title;
   FrameBufferFormat framebuffer;
   std::string palette_name;  ///< a built-in palette; empty: determined by bits, or entries of the scene
+  /// Other than given: the frame buffer has its default palette until a palette is chosen; see
+  /// chosen_palette.h.
+  PaletteSource palette_source = PaletteSource::given;
+  PaletteOver palette_over = PaletteOver::animation;
   std::optional<DisplayMode> mode = {};  ///< display mode of the picture; see scene_mode.h
   std::optional<FrameBufferFormat> reduced =
       {};  ///< the mode's frame buffer, if `framebuffer` has more colours
@@ -116,7 +128,9 @@ struct SceneOverrides {
   bool reduce = false;  ///< draws at 24 bits and reduces the picture to the colours of the mode
   std::optional<Shading> shading = {};  ///< shading of every draw
   std::optional<int> color_bits = {};
-  std::optional<std::string> palette = {};  ///< name; makes the colour buffer a colour-index buffer
+  /// Name, or "adaptive" or "ramps"; makes the colour buffer a colour-index buffer.
+  std::optional<std::string> palette = {};
+  std::optional<PaletteOver> palette_over = {};
   // Of the reduction, if the scene is reduced.
   std::optional<Dither> dither = {};
   std::optional<DitherSpace> dither_in = {};
@@ -133,6 +147,8 @@ void apply(const SceneOverrides& overrides, Scene& scene);
 /// Returns the fewest colour bits that hold a named palette; 8 for a palette of any number of bits or an
 /// unknown name.
 int palette_bits(std::string_view name);
+/// Returns the source of a palette: adaptive or ramps for these names, else given.
+PaletteSource palette_source(std::string_view name);
 
 /// Records the scene's commands. The frame borrows meshes, textures, bitmaps and images of the scene until it
 /// is finished.

@@ -41,14 +41,27 @@ void set_mode(const DisplayMode& mode, Scene& scene) {
   format.color_bits = colors.color_bits;
   format.palette = std::move(colors.palette);
   scene.palette_name.clear();
+  scene.palette_source = PaletteSource::given;
   scene.mode = mode;
   scene.reduced.reset();
 }
 
 void set_mode_palette(std::span<const Color> palette, Scene& scene) {
   check_palette(*scene.mode, palette);
+  scene.palette_source = PaletteSource::given;
   scene.mode->palette.assign(palette.begin(), palette.end());
   (scene.reduced ? *scene.reduced : scene.framebuffer).palette = scene.mode->palette;
+}
+
+void set_mode_palette(PaletteSource source, Scene& scene) {
+  palette_request(*scene.mode);  // refuses modes whose palette cannot be chosen
+  scene.palette_source = source;
+}
+
+void set_mode_palette(const std::string& name, Scene& scene) {
+  const PaletteSource source = palette_source(name);
+  if (source == PaletteSource::given) set_mode_palette(named_palette(name, scene.mode->color_bits), scene);
+  else set_mode_palette(source, scene);
 }
 
 void reduce_to_mode(Scene& scene) {
@@ -71,7 +84,7 @@ void apply_mode(const SceneOverrides& overrides, Scene& scene) {
     throw Error("the size is that of display mode \"" + scene.mode->name + "\" and cannot be set");
   if (overrides.color_bits)
     throw Error("the color bits are those of display mode \"" + scene.mode->name + "\" and cannot be set");
-  if (overrides.palette) set_mode_palette(named_palette(*overrides.palette, scene.mode->color_bits), scene);
+  if (overrides.palette) set_mode_palette(*overrides.palette, scene);
   if (overrides.reduce || was_reduced) reduce_to_mode(scene);
 }
 

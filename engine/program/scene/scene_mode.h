@@ -21,6 +21,12 @@ void set_mode(const DisplayMode& mode, Scene& scene);
 /// Replaces the palette of the scene's mode.
 /// @throws Error for colours that the mode cannot show; see check_palette()
 void set_mode_palette(std::span<const Color> palette, Scene& scene);
+/// Sets the source of the mode's palette: adaptive or ramps.
+/// @throws Error for a mode whose palette is fixed or that has none; see palette_request()
+void set_mode_palette(PaletteSource source, Scene& scene);
+/// Sets a named palette, or the source of that name.
+/// @throws Error as both above
+void set_mode_palette(const std::string& name, Scene& scene);
 /// Makes the scene's frame buffer one of 24 bits, whose pictures are reduced to the colours of the mode. The
 /// dither is that of the reduction. @pre scene.mode
 void reduce_to_mode(Scene& scene);
