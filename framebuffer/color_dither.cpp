@@ -6,6 +6,7 @@ namespace tessera::detail {
 namespace {
 
 constexpr int kTableIntervals = 4096;
+constexpr std::size_t kMixedNeighbours = 16;  ///< by thresholds in light
 
 /// Moves components between two levels of b bits in proportion to their light.
 ComponentTable levels_by_light(const LightCurve& curve, int bits) {
@@ -39,7 +40,10 @@ ColorDither::ColorDither(Dither kind, const std::optional<LightCurve>& light, co
     : pattern_(kind, frame_height) {
   if (layout.index) {
     spread_ = palette_spread(palette.entries.size());
-    if (kind == Dither::pattern) mixes_.emplace(palette, light);
+    // Thresholds of light on top of a dark colour would reach beyond black: in light, entries are mixed.
+    const bool is_mixed = kind == Dither::pattern || (light && palette.entries.size() <= kMaxMixedEntries);
+    const std::size_t reach = kind == Dither::pattern ? kMaxMixedEntries : kMixedNeighbours;
+    if (is_mixed) mixes_.emplace(palette, light, pattern_.size() * pattern_.size(), reach);
     else if (light) tables_.emplace_back(kTableIntervals, [&](double c) { return light->light(c); });
     return;
   }

@@ -34,14 +34,15 @@ class ColorDither {
   const DitherPattern& pattern() const { return pattern_; }
   /// Index layouts: (threshold - 0.5) * spread is added to the components before the search.
   float spread() const { return spread_; }
-  /// Dither::pattern of an index layout: replaces spread and search. Else null.
+  /// Replaces spread and search in index layouts with Dither::pattern, and in light with palettes of at most
+  /// kMaxMixedEntries entries. Else null.
   const PaletteMixes* mixes() const { return mixes_ ? &*mixes_ : nullptr; }
 
   /// In light, the function of component c (0 red, 1 green, 2 blue; luminance: 0) that is applied before the
   /// threshold; null in levels.
   /// - RGB: between the levels v and v + 1, whose light is L_v and L_v+1, it is
   ///   (v + (light - L_v) / (L_v+1 - L_v)) / (2^b - 1): the threshold then decides by light.
-  /// - Index: the light itself.
+  /// - Index, without mixes(): the light itself.
   const ComponentTable* table(std::size_t c) const { return tables_.empty() ? nullptr : &tables_[index_[c]]; }
   /// A component in the space of the threshold. @pre 0 <= value <= 1
   float component(std::size_t c, float value) const {

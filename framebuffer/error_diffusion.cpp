@@ -119,9 +119,7 @@ class Entries {
     if (values_.empty()) values_.push_back(Values{});
   }
   /// Values with errors, limited.
-  Values limited(Values wanted) const {
-    return lesser(greater(wanted, all(-margin_)), all(1 + margin_));
-  }
+  Values limited(Values wanted) const { return lesser(greater(wanted, all(-margin_)), all(1 + margin_)); }
   Rounded operator()(Values wanted) const {
     const std::uint32_t index = search_.nearest_unclamped(wanted[0], wanted[1], wanted[2]);
     return {index, values_[index]};

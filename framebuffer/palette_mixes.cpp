@@ -12,7 +12,7 @@ namespace tessera::detail {
 namespace {
 
 constexpr int kCacheBits = 16;
-constexpr std::uint64_t kIsSet = std::uint64_t{1} << 56;
+constexpr std::uint64_t kIsSet = std::uint64_t{1} << 63;
 
 std::uint32_t word_of(Rgb8 c) { return std::uint32_t{c.r} << 16 | std::uint32_t{c.g} << 8 | c.b; }
 /// Fibonacci hashing.
@@ -20,8 +20,11 @@ std::size_t slot_of(std::uint32_t word) { return word * 2654435769u >> (32 - kCa
 
 }  // namespace
 
-PaletteMixes::PaletteMixes(const Palette& palette, const std::optional<LightCurve>& light)
-    : cache_(std::make_unique<std::atomic<std::uint64_t>[]>(std::size_t{1} << kCacheBits)) {
+PaletteMixes::PaletteMixes(const Palette& palette, const std::optional<LightCurve>& light, int steps,
+                           std::size_t reach)
+    : steps_(static_cast<float>(steps)),
+      reach_(reach),
+      cache_(std::make_unique<std::atomic<std::uint64_t>[]>(std::size_t{1} << kCacheBits)) {
   TESSERA_ASSERT(palette.entries.size() <= kMaxMixedEntries);
   for (int level = 0; level < 256; ++level)
     values_.push_back(static_cast<float>(light ? light->light(level / 255.0) : level / 255.0));
@@ -54,6 +57,15 @@ PaletteMixes::PaletteMixes(const Palette& palette, const std::optional<LightCurv
   });
 }
 
+/// Distance of the last entry that is mixed. @param distances  of all entries
+float PaletteMixes::reach_radius(const float* distances) const {
+  if (reach_ >= entries_.size()) return std::numeric_limits<float>::max();
+  float sorted[kMaxMixedEntries];
+  std::copy_n(distances, entries_.size(), sorted);
+  std::nth_element(sorted, sorted + reach_ - 1, sorted + entries_.size());
+  return sorted[reach_ - 1];
+}
+
 PaletteMix PaletteMixes::search(Rgb8 color) const {
   const Vector wanted{values_[color.r], values_[color.g], values_[color.b]};
   float distances[kMaxMixedEntries];
@@ -71,18 +83,21 @@ PaletteMix PaletteMixes::search(Rgb8 color) const {
   }
   if (best_square == 0) return best;
   float best_distance = std::sqrt(best_square);
+  const float radius = reach_radius(distances);
   for (const Pair& pair : pairs_) {
+    if (pair.length > 2 * radius) break;  // not both of its entries lie within the radius
+    if (std::max(distances[pair.first], distances[pair.second]) > radius) continue;
     // A mix lies within the pair's length of its first entry.
     if (distances[pair.first] - pair.length >= best_distance) continue;
     const Vector& from = entries_[pair.first].value;
     const Vector& e = pair.difference;
     const Vector offset{wanted.r - from.r, wanted.g - from.g, wanted.b - from.b};
-    const float share = std::clamp(16 * (offset.dot(e) * pair.inverse_square), 0.0f, 16.0f);
-    const int sixteenths = static_cast<int>(share + 0.5f);
-    const float t = static_cast<float>(sixteenths) / 16;
+    const float place = std::clamp(offset.dot(e) * pair.inverse_square, 0.0f, 1.0f);
+    const int share = static_cast<int>(place * steps_ + 0.5f);
+    const float t = static_cast<float>(share) / steps_;
     const Vector error{offset.r - t * e.r, offset.g - t * e.g, offset.b - t * e.b};
     const PaletteMix mix{entries_[pair.first].index, entries_[pair.second].index,
-                         static_cast<std::uint8_t>(sixteenths)};
+                         static_cast<std::uint16_t>(share)};
     if (std::abs(error.r) <= half_levels_[color.r] && std::abs(error.g) <= half_levels_[color.g] &&
         std::abs(error.b) <= half_levels_[color.b])
       return mix;
@@ -101,17 +116,17 @@ PaletteMix PaletteMixes::nearest(Rgb8 color) const {
   const std::uint64_t key = kIsSet | std::uint64_t{word} << 32;
   constexpr std::uint64_t kKeyMask = ~std::uint64_t{0xffffffff};
   if (const std::uint64_t cached = slot.load(std::memory_order_relaxed); (cached & kKeyMask) == key)
-    return {static_cast<std::uint8_t>(cached >> 16), static_cast<std::uint8_t>(cached >> 8),
-            static_cast<std::uint8_t>(cached)};
+    return {static_cast<std::uint8_t>(cached >> 8), static_cast<std::uint8_t>(cached),
+            static_cast<std::uint16_t>(cached >> 16)};
   const PaletteMix mix = search(color);
-  slot.store(key | std::uint64_t{mix.first} << 16 | std::uint64_t{mix.second} << 8 | mix.sixteenths,
+  slot.store(key | std::uint64_t{mix.share} << 16 | std::uint64_t{mix.first} << 8 | mix.second,
              std::memory_order_relaxed);
   return mix;
 }
 
 std::uint32_t PaletteMixes::entry(float r, float g, float b, float threshold) const {
   const PaletteMix mix = nearest(quantize_rgb8(r, g, b));
-  return static_cast<int>(threshold * 16) < mix.sixteenths ? mix.second : mix.first;
+  return static_cast<int>(threshold * steps_) < mix.share ? mix.second : mix.first;
 }
 
 }  // namespace tessera::detail

@@ -53,13 +53,19 @@ TEST(ColorDither, KeepsTheLevels) {
   EXPECT_EQ(in_levels.component(1, 0.3f), 0.3f);
 }
 
-TEST(ColorDither, SearchesPalettesByLight) {
-  const ColorDither dither(Dither::bayer4, LightCurve{}, index_layout(1), default_palette_of(1), 4);
+TEST(ColorDither, MixesSmallPalettesInLightAndSearchesLargeOnes) {
+  Palette large{.bits = 9, .entries = {}};
+  large.entries.resize(300);
+  const ColorDither dither(Dither::bayer4, LightCurve{}, index_layout(9), large, 4);
   for (int i = 0; i <= 1000; ++i) {
     const float c = static_cast<float>(i) / 1000;
     EXPECT_NEAR(dither.component(2, c), static_cast<double>(srgb_light(c)), 1e-6);
   }
-  EXPECT_EQ(dither.spread(), 1);
+  EXPECT_EQ(dither.mixes(), nullptr);
+  const ColorDither small(Dither::bayer4, LightCurve{}, index_layout(1), default_palette_of(1), 4);
+  ASSERT_NE(small.mixes(), nullptr);
+  EXPECT_EQ(small.mixes()->nearest({188, 188, 188}).share, 8) << "half of the light of white";
+  EXPECT_EQ(small.spread(), 1);
   EXPECT_FLOAT_EQ(palette_spread(216), 1 / 5.0f);
 }
 

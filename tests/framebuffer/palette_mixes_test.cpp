@@ -23,9 +23,9 @@ Vector vector_of(Rgb8 c, const std::optional<LightCurve>& light) {
 double distance(const Vector& a, const Vector& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
-Vector mixed(const Vector& a, const Vector& b, int sixteenths) {
+Vector mixed(const Vector& a, const Vector& b, int share, int steps) {
   Vector mix;
-  for (std::size_t c = 0; c < 3; ++c) mix[c] = a[c] + (b[c] - a[c]) * sixteenths / 16;
+  for (std::size_t c = 0; c < 3; ++c) mix[c] = a[c] + (b[c] - a[c]) * share / steps;
   return mix;
 }
 
@@ -54,16 +54,17 @@ TEST(PaletteMixes, FindTheNearestMixOfAll) {
   for (const std::optional<LightCurve>& light : {std::optional<LightCurve>{}, {LightCurve{}}})
     for (const std::size_t entries : {1u, 2u, 4u, 16u, 40u}) {
       const Palette palette = random_palette(random, entries);
-      const PaletteMixes mixes(palette, light);
+      const int steps = entries > 16 ? 4 : 16;
+      const PaletteMixes mixes(palette, light, steps);
       for (int round = 0; round < 200; ++round) {
         const Rgb8 color = random_palette(random, 1).entries[0];
         const Vector wanted = vector_of(color, light);
         double nearest = std::numeric_limits<double>::max(), closest_equal = nearest;
         for (const Rgb8 a : palette.entries)
           for (const Rgb8 b : palette.entries)
-            for (int share = 0; share <= 16; ++share) {
+            for (int share = 0; share <= steps; ++share) {
               const Vector first = vector_of(a, light), second = vector_of(b, light);
-              const Vector mix = mixed(first, second, share);
+              const Vector mix = mixed(first, second, share, steps);
               nearest = std::min(nearest, distance(mix, wanted));
               if (is_equal(mix, color, light))
                 closest_equal = std::min(closest_equal, distance(first, second));
@@ -71,7 +72,7 @@ TEST(PaletteMixes, FindTheNearestMixOfAll) {
         const PaletteMix found = mixes.nearest(color);
         const Vector first = vector_of(palette[found.first], light);
         const Vector second = vector_of(palette[found.second], light);
-        const Vector mix = mixed(first, second, found.sixteenths);
+        const Vector mix = mixed(first, second, found.share, steps);
         if (is_equal(mix, color, light)) EXPECT_LE(distance(first, second), closest_equal + 1e-6);
         else EXPECT_LE(distance(mix, wanted), nearest + 1e-6);
         EXPECT_EQ(mixes.nearest(color), found) << "from the cache";
@@ -81,13 +82,13 @@ TEST(PaletteMixes, FindTheNearestMixOfAll) {
 
 TEST(PaletteMixes, PlaceTheSecondEntryAtTheLowestRanks) {
   const Palette bw = default_palette_of(1);
-  const PaletteMixes mixes(bw, std::nullopt);
-  for (int sixteenths = 0; sixteenths <= 16; ++sixteenths) {
-    const float grey = static_cast<float>(sixteenths) / 16;
+  const PaletteMixes mixes(bw, std::nullopt, 16);
+  for (int share = 0; share <= 16; ++share) {
+    const float grey = static_cast<float>(share) / 16;
     int white = 0;
     for (int rank = 0; rank < 16; ++rank)
       white += mixes.entry(grey, grey, grey, (static_cast<float>(rank) + 0.5f) / 16) == 1;
-    EXPECT_EQ(white, sixteenths);
+    EXPECT_EQ(white, share);
   }
 }
 

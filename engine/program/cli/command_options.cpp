@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/program/cli/choice_option.h"
 #include "engine/program/cli/parse_overrides.h"
 #include "engine/program/cli/validators.h"
 #include "engine/program/scene/dither_names.h"
@@ -40,29 +41,6 @@ constexpr const char* kSelftestExamples = R"(Examples:
   tessera selftest
   tessera selftest --hashes > here.txt            on one machine
   tessera selftest --expect here.txt              on another)";
-
-template <class Enum>
-struct Choice {
-  std::string_view name;
-  Enum value;
-};
-
-// Adds an option that takes the name of one of `choices`.
-template <class Target, class Enum>
-void add_choice(CLI::App& command, const std::string& option, Target& target,
-                const std::vector<Choice<Enum>>& choices, const std::string& text) {
-  Names names;
-  std::string value_text;
-  for (const Choice<Enum>& choice : choices) {
-    names.push_back(choice.name);
-    value_text += (value_text.empty() ? "" : "|") + std::string(choice.name);
-  }
-  const auto set = [&target, choices](const std::string& typed) {
-    for (const Choice<Enum>& choice : choices)
-      if (choice.name == typed) target = choice.value;
-  };
-  command.add_option_function<std::string>(option, set, text)->option_text(value_text)->check(one_of(names));
-}
 
 void add_input(CLI::App& command, std::string& input) {
   command.add_option("input", input, "scene or model; default: the built-in scene")
@@ -138,7 +116,7 @@ void add_scene_overrides(CLI::App& command, SceneOverrides& overrides) {
       .add_option("--dither-gamma", overrides.dither_gamma,
                   "light is the stored value raised to this power, 1 to 4; default: the curve of sRGB")
       ->option_text("G")
-      ->check(CLI::Range(1.0, 4.0));
+      ->check(number_from(1, 4));
 }
 
 void add_mode(CLI::App& command, SceneOverrides& overrides) {

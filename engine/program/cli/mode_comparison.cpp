@@ -103,7 +103,7 @@ ModeComparison::ModeComparison(const ModeComparisonRequest& request)
     : request_(request),
       groups_(grouped(request.modes.empty() ? modes_with_pixels() : request.modes)),
       dithers_(request.dithers.empty() ? all_dithers() : request.dithers),
-      scenes_(request.input),
+      scenes_(request.input, request.dither_in),
       renderer_({.threads = request.threads, .progress = [](double) { return !Interrupt::pressed(); }}) {}
 
 /// @throws Error  also for scenes of palette indices

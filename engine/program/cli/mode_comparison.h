@@ -14,8 +14,9 @@ struct ModeComparisonRequest {
   std::string folder;              ///< created if it does not exist
   std::vector<DisplayMode> modes;  ///< with pixels; empty: all named ones
   std::vector<Dither> dithers;     ///< empty: all
-  bool json = false;               ///< prints JSON, not text
-  int threads = 0;                 ///< 0: all cores
+  DitherSpace dither_in = DitherSpace::levels;
+  bool json = false;  ///< prints JSON, not text
+  int threads = 0;    ///< 0: all cores
 };
 
 /// Writes MODE-DITHER.png for each mode and dither, reference-WIDTHxHEIGHT.png at 24 bits for each size,

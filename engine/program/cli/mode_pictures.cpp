@@ -8,6 +8,7 @@
 #include "engine/program/cli/indexed_frame.h"
 #include "engine/program/cli/scene_buffers.h"
 #include "engine/program/cli/scene_input.h"
+#include "engine/program/scene/chosen_palette.h"
 #include "engine/program/scene/scene_mode.h"
 
 namespace tessera::program::cli {
@@ -74,8 +75,24 @@ ModePicture drawn(const Scene& scene, Renderer& renderer) {
   return result;
 }
 
-/// The changes that a comparison makes to a scene. The palette is the default of the mode.
-SceneOverrides compared(const DisplayMode& mode, Dither dither) { return {.mode = mode, .dither = dither}; }
+/// The changes that a comparison makes to a scene.
+SceneOverrides compared(const DisplayMode& mode, Dither dither, DitherSpace dither_in) {
+  SceneOverrides overrides{.mode = mode, .dither = dither, .dither_in = dither_in};
+  if (mode.palette_component_bits > 0) overrides.palette = "adaptive";
+  return overrides;
+}
+
+/// Chooses the palette of the scene's picture. A scene of palette indices keeps that of the mode.
+void set_chosen_palette(Scene& scene, Renderer& renderer) {
+  if (scene.palette_source == PaletteSource::given) return;
+  try {
+    check_stores_colors(scene);
+  } catch (const Error&) {
+    scene.palette_source = PaletteSource::given;
+    return;
+  }
+  set_mode_palette(choose_palette(scene, renderer), scene);
+}
 
 /// Returns whether an error may be due to the format of the frame buffer, not to the scene.
 bool concerns_format(const Error& error) {
@@ -92,11 +109,12 @@ Scene ModeScenes::in_mode(const DisplayMode& mode, Dither dither) {
     found = scenes_.emplace(mode.screen_aspect(), input.scene()).first;
   }
   Scene scene = found->second;
-  apply(compared(mode, dither), scene);
+  apply(compared(mode, dither, dither_in_), scene);
   return scene;
 }
 
 ModePicture draw_in_mode(Scene scene, Renderer& renderer) {
+  set_chosen_palette(scene, renderer);
   try {
     return drawn(scene, renderer);
   } catch (const Error& error) {

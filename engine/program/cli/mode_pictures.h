@@ -14,13 +14,15 @@ namespace tessera::program::cli {
 class ModeScenes {
  public:
   /// @param input  empty: the built-in scene
-  explicit ModeScenes(std::string input) : input_(std::move(input)) {}
-  /// Returns the scene in a mode. Prints its warnings on stderr when it is read first.
+  ModeScenes(std::string input, DitherSpace dither_in) : input_(std::move(input)), dither_in_(dither_in) {}
+  /// Returns the scene in a mode, with an adaptive palette if the mode's can be chosen. Prints its warnings
+  /// on stderr when it is read first.
   /// @throws Error for a file that cannot be read
   Scene in_mode(const DisplayMode& mode, Dither dither);
 
  private:
   std::string input_;
+  DitherSpace dither_in_;
   std::map<double, Scene> scenes_;  ///< by width to height of the screen
 };
 
@@ -33,8 +35,8 @@ struct ModePicture {
   double frame_ms = 0;                    ///< median of several frames, recording and reduction included
 };
 
-/// Draws a scene in its mode. Scenes that an index buffer refuses, because they blend for example, are
-/// reduced.
+/// Draws a scene in its mode. A palette is chosen before, unless the scene stores indices. Scenes that an
+/// index buffer refuses, because they blend for example, are reduced.
 /// @throws Error      if the scene cannot be drawn either way
 /// @throws Cancelled  if the renderer's progress callback stops it
 ModePicture draw_in_mode(Scene scene, Renderer& renderer);

@@ -1,6 +1,7 @@
 // Options of `tessera modes`.
 #include <string>
 
+#include "engine/program/cli/choice_option.h"
 #include "engine/program/cli/command_options.h"
 #include "engine/program/cli/mode_selection.h"
 #include "engine/program/cli/validators.h"
@@ -61,6 +62,10 @@ void add_mode_comparison(CLI::App& command, ModeComparisonRequest& request) {
       "with pixels");
   add_list(command, "--dithers", request.dithers, parse_dithers,
            "dithers to compare: " + dither_name_list(", ") + "; default: all");
+  add_choice<DitherSpace, DitherSpace>(
+      command, "--dither-in", request.dither_in,
+      {{"levels", DitherSpace::levels}, {"light", DitherSpace::light}},
+      "what the dithers preserve on average: stored values (default), or the light of a display");
   command.add_option("--threads", request.threads, "threads of -o; default: TESSERA_THREADS, or all cores")
       ->option_text("N")
       ->transform(integer_from(1, 1024));
@@ -70,7 +75,7 @@ void add_mode_comparison(CLI::App& command, ModeComparisonRequest& request) {
 void check_use(const CLI::App& command, const ModesRequest& request) {
   if (command.remaining_size() > 0) return;  // reported as unexpected
   const bool compares = !request.comparison.folder.empty();
-  for (const char* const option : {"input", "--modes", "--dithers", "--threads"})
+  for (const char* const option : {"input", "--modes", "--dithers", "--dither-in", "--threads"})
     if (!compares && command.count(option) > 0)
       throw CLI::ValidationError(std::string(option) == "input" ? request.comparison.input : option,
                                  "needs -o DIR, the folder for pictures and tables");

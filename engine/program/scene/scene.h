@@ -131,7 +131,7 @@ struct SceneOverrides {
   /// Name, or "adaptive" or "ramps"; makes the colour buffer a colour-index buffer.
   std::optional<std::string> palette = {};
   std::optional<PaletteOver> palette_over = {};
-  // Of the reduction, if the scene is reduced.
+  // The dither is that of the reduction, if the scene is reduced.
   std::optional<Dither> dither = {};
   std::optional<DitherSpace> dither_in = {};
   std::optional<float> dither_gamma = {};

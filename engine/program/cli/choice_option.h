@@ -1,0 +1,35 @@
+// Options that take one of several names.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/program/cli/validators.h"
+
+namespace tessera::program::cli {
+
+template <class Enum>
+struct Choice {
+  std::string_view name;
+  Enum value;
+};
+
+/// Adds an option that takes the name of one of `choices`.
+template <class Target, class Enum>
+void add_choice(CLI::App& command, const std::string& option, Target& target,
+                const std::vector<Choice<Enum>>& choices, const std::string& text) {
+  Names names;
+  std::string value_text;
+  for (const Choice<Enum>& choice : choices) {
+    names.push_back(choice.name);
+    value_text += (value_text.empty() ? "" : "|") + std::string(choice.name);
+  }
+  const auto set = [&target, choices](const std::string& typed) {
+    for (const Choice<Enum>& choice : choices)
+      if (choice.name == typed) target = choice.value;
+  };
+  command.add_option_function<std::string>(option, set, text)->option_text(value_text)->check(one_of(names));
+}
+
+}  // namespace tessera::program::cli
