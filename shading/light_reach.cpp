@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shading/trigonometry.h"
+#include "framebuffer/trigonometry.h"
 
 namespace tessera::detail {
 namespace {

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "framebuffer/format.h"
+#include "framebuffer/trigonometry.h"
 #include "shading/lighting.h"
 #include "shading/power_reference.h"
-#include "shading/trigonometry.h"
 
 namespace tessera::detail {
 namespace {

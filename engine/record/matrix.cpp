@@ -11,7 +11,7 @@
 #include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/worker_pool.h"
 #include "engine/tessera/tessera.hpp"
-#include "shading/trigonometry.h"
+#include "framebuffer/trigonometry.h"
 
 namespace tessera {
 using namespace detail;

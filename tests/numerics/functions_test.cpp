@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "framebuffer/palette_search.h"
+#include "framebuffer/trigonometry.h"
 #include "shading/lighting.h"
-#include "shading/trigonometry.h"
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/every_float.h"
 #include "tests/shading/texture_lanes.h"
