@@ -1,5 +1,6 @@
 # Installed components, and the Debian packages made of them:
 #   runtime      libtessera.so.N                      libtesseraN
+#   display      libtessera-display.so.N              libtessera-displayN
 #   development  headers, CMake package, pkg-config   libtessera-dev
 #   imageio      module for image files               libtessera-imageioN
 #   import       module for models                    libtessera-importN
@@ -9,6 +10,7 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tessera)
 set(built_dir ${CMAKE_CURRENT_BINARY_DIR}/package)
 set(tessera_package_runtime libtessera${tessera_soversion})
+set(tessera_package_display libtessera-display${tessera_soversion})
 set(tessera_package_development libtessera-dev)
 set(tessera_package_imageio libtessera-imageio${tessera_soversion})
 set(tessera_package_import libtessera-import${tessera_soversion})
@@ -16,17 +18,21 @@ set(tessera_package_program tessera)
 
 install(TARGETS tessera EXPORT tessera-shared
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development)
+install(TARGETS tessera_display EXPORT tessera-display
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT display NAMELINK_COMPONENT development)
 install(TARGETS tessera_static EXPORT tessera-static
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-foreach(component runtime development)
+foreach(component runtime display development)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${tessera_package_${component}}
     RENAME copyright COMPONENT ${component})
 endforeach()
 install(DIRECTORY engine/tessera framebuffer/tessera
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 
-# The static library has a separate export file: only its users need oneTBB's package.
+# The static library and the display library have separate export files: only users of the static library need
+# oneTBB's package, and the display library may be missing.
 install(EXPORT tessera-shared NAMESPACE tessera:: DESTINATION ${package_dir} COMPONENT development)
+install(EXPORT tessera-display NAMESPACE tessera:: DESTINATION ${package_dir} COMPONENT development)
 install(EXPORT tessera-static NAMESPACE tessera:: DESTINATION ${package_dir} COMPONENT development)
 configure_package_config_file(
   ${CMAKE_CURRENT_LIST_DIR}/tessera-config.cmake.in ${built_dir}/tessera-config.cmake
@@ -35,11 +41,13 @@ write_basic_package_version_file(${built_dir}/tessera-config-version.cmake COMPA
 install(FILES ${built_dir}/tessera-config.cmake ${built_dir}/tessera-config-version.cmake
   DESTINATION ${package_dir} COMPONENT development)
 
-# tessera.pc is relocatable: its prefix is relative to its own folder.
+# The pkg-config files are relocatable: their prefix is relative to their folder.
 file(RELATIVE_PATH prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" prefix_from_pc "${prefix_from_pc}")
-configure_file(${CMAKE_CURRENT_LIST_DIR}/tessera.pc.in ${built_dir}/tessera.pc @ONLY)
-install(FILES ${built_dir}/tessera.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+foreach(name tessera tessera-display)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/${name}.pc.in ${built_dir}/${name}.pc @ONLY)
+  install(FILES ${built_dir}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endforeach()
 
 if(TARGET tessera_cli AND NOT CMAKE_CROSSCOMPILING)
   file(RELATIVE_PATH lib_from_bin /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
@@ -80,7 +88,7 @@ if(TARGET tessera_cli AND NOT CMAKE_CROSSCOMPILING)
 endif()
 
 # Builds everything that is installed, without tests.
-add_custom_target(installed DEPENDS tessera tessera_static)
+add_custom_target(installed DEPENDS tessera tessera_display tessera_static)
 if(TARGET tessera_cli)
   add_dependencies(installed tessera_cli)
 endif()

@@ -28,6 +28,14 @@ const std::vector<std::string> kCore = {"framebuffer/",    "raster/",         "s
                                         "engine/record/",  "engine/plan/",    "engine/stages/",
                                         "engine/buffers/", "engine/runtime/", "engine/tessera/"};
 
+/// The library tessera::display, which is linked separately from the core.
+const std::vector<std::string> kDisplay = {
+    "framebuffer/display/", "framebuffer/tessera/color.hpp", "framebuffer/tessera/display_export.h",
+    "framebuffer/tessera/rgb_primaries.hpp", "framebuffer/tessera/transfer_curve.hpp"};
+/// Headers that hold functions alone, and need nothing of a library.
+const std::set<std::string> kArithmetic = {"framebuffer/exact_functions.h", "framebuffer/srgb.h",
+                                           "framebuffer/trigonometry.h"};
+
 const std::vector<std::string> kTbb = {"tbb/", "oneapi/"};
 const std::vector<std::string> kHighway = {"hwy/"};
 const std::vector<std::string> kImageFiles = {"OpenImageIO/", "Imath/",    "OpenEXR/",
@@ -55,7 +63,8 @@ int floor_of(const std::string& file) {
   const auto found = std::find(kFloors.begin(), kFloors.end(), folder_of(file));
   return found == kFloors.end() ? -1 : static_cast<int>(found - kFloors.begin());
 }
-bool in_core(const std::string& file) { return starts_with_any(file, kCore); }
+bool in_display(const std::string& file) { return starts_with_any(file, kDisplay); }
+bool in_core(const std::string& file) { return starts_with_any(file, kCore) && !in_display(file); }
 bool in_program(const std::string& file) { return file.starts_with(kProgram); }
 bool is_public(const std::string& file) { return starts_with_any(file, kPublicFolders); }
 
@@ -154,7 +163,7 @@ TEST(Floors, EveryProjectPathExists) {
   }
 }
 
-TEST(Floors, CoreDoesNotIncludeTheProgram) {
+TEST(Floors, CoreIncludesNeitherTheProgramNorTheDisplayLibrary) {
   for (const Include& include : all_includes())
     if (include.ours && in_core(include.file)) {
       EXPECT_TRUE(in_core(include.target)) << where(include);
@@ -162,12 +171,18 @@ TEST(Floors, CoreDoesNotIncludeTheProgram) {
   EXPECT_THAT(offenders(kProgramOnly, in_program), IsEmpty());
 }
 
-// The arithmetic headers hold functions alone, and need nothing of the library.
+// Programs may use one library without the other.
+TEST(Floors, DisplayLibraryIncludesOnlyItselfAndArithmetic) {
+  for (const Include& include : all_includes())
+    if (include.ours && in_display(include.file)) {
+      EXPECT_TRUE(in_display(include.target) || kArithmetic.contains(include.target)) << where(include);
+    }
+}
+
 TEST(Floors, ProgramIncludesOnlyItselfPublicHeadersAndArithmetic) {
-  const std::set<std::string> arithmetic{"framebuffer/exact_functions.h", "framebuffer/srgb.h"};
   for (const Include& include : all_includes())
     if (include.ours && in_program(include.file)) {
-      const bool is_arithmetic = arithmetic.contains(include.target);
+      const bool is_arithmetic = kArithmetic.contains(include.target);
       EXPECT_TRUE(in_program(include.target) || is_public(include.target) || is_arithmetic) << where(include);
     }
 }
