@@ -69,7 +69,7 @@ add_custom_command(OUTPUT ${tessera_selftest}
 file(GLOB tessera_cli_sources CONFIGURE_DEPENDS ${program_dir}/cli/*.cpp)
 add_executable(tessera_cli ${tessera_cli_sources} ${tessera_selftest})
 target_link_libraries(tessera_cli PRIVATE
-  tessera_options tessera_scene tessera CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
+  tessera_options tessera_scene tessera tessera_display CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
 target_compile_options(tessera_cli PRIVATE $<$<CONFIG:Release>:-O1>)  # a third less compile time; draws nothing itself
 set_target_properties(tessera_cli PROPERTIES OUTPUT_NAME tessera INSTALL_RPATH "$ORIGIN/../lib")
 add_dependencies(tessera_cli tessera_imageio tessera_import)

@@ -1,8 +1,9 @@
-// Declares the options of `tessera render`, `explain`, `compare`, `modes` and `selftest`.
+// Declares the options of `tessera render`, `explain`, `compare`, `modes`, `color` and `selftest`.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
+#include "engine/program/cli/color_command.h"
 #include "engine/program/cli/compare_command.h"
 #include "engine/program/cli/explain_command.h"
 #include "engine/program/cli/modes_command.h"
@@ -16,6 +17,7 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request);
 CLI::App* add_explain(CLI::App& program, ExplainRequest& request);
 CLI::App* add_compare(CLI::App& program, CompareRequest& request);
 CLI::App* add_modes(CLI::App& program, ModesRequest& request);
+CLI::App* add_color(CLI::App& program, ColorRequest& request);
 CLI::App* add_selftest(CLI::App& program, SelftestRequest& request);
 
 }  // namespace tessera::program::cli

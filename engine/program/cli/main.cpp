@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/program/cli/bench_command.h"
+#include "engine/program/cli/color_command.h"
 #include "engine/program/cli/command_docs.h"
 #include "engine/program/cli/command_options.h"
 #include "engine/program/cli/info_command.h"
@@ -36,6 +37,7 @@ constexpr const char* kProgramExamples = R"(Examples:
   tessera render --help                           options of render
   tessera explain scene.json                      which effects run for each draw, and why
   tessera compare a.png b.png                     how much two pictures differ, and how visibly
+  tessera color '#80ff00' --to lab                a colour in another colour space
   tessera info                                    this machine and its instruction sets
   tessera selftest                                check that this machine renders correctly
   tessera completion bash > /etc/bash_completion.d/tessera)";
@@ -75,7 +77,7 @@ std::string unexpected_argument(const CLI::App& program) {
     return message + "; did you mean \"tessera render " + word + "\"?";
   return "unknown command \"" + word + "\"" +
          did_you_mean(word, Names{"render", "explain", "compare", "info", "selftest", "bench", "price",
-                                  "accuracy", "modes", "formats", "completion", "man"});
+                                  "accuracy", "modes", "color", "formats", "completion", "man"});
 }
 
 int usage_error(const std::string& message, const CLI::App& program) {
@@ -122,6 +124,7 @@ struct Requests {
   ExplainRequest explain;
   CompareRequest compare;
   ModesRequest modes;
+  ColorRequest color;
   SelftestRequest selftest;
   std::string shell;  ///< for `completion`
 };
@@ -132,6 +135,7 @@ struct Commands {
   CLI::App* explain;
   CLI::App* compare;
   CLI::App* modes;
+  CLI::App* color;
   CLI::App* info;
   CLI::App* selftest;
   CLI::App* bench;
@@ -176,6 +180,7 @@ Commands add_commands(CLI::App& program, Requests& requests) {
   commands.explain = add_explain(program, requests.explain);
   commands.compare = add_compare(program, requests.compare);
   commands.modes = add_modes(program, requests.modes);
+  commands.color = add_color(program, requests.color);
   commands.info = add_plain("info", "Describe this machine and what Tessera uses of it", "tessera info");
   commands.selftest = add_selftest(program, requests.selftest);
   commands.bench =
@@ -247,6 +252,7 @@ int run(int argument_count, char** arguments) {
     return compare_modes(requests.modes.comparison);
   }
   if (commands.modes->parsed()) std::cout << modes_text(requests.modes);
+  else if (commands.color->parsed()) std::cout << colors_text(requests.color);
   else if (commands.info->parsed()) std::cout << info_text();
   else if (commands.formats->parsed()) std::cout << formats_text();
   else if (commands.completion->parsed()) std::cout << completion_script(requests.shell, docs_of(program));

@@ -1,4 +1,4 @@
-// Makes text from files safe for the terminal.
+// Makes text from files safe for the terminal, and quotes it for messages.
 #pragma once
 
 #include <string>
@@ -17,5 +17,7 @@ inline std::string printable(std::string_view text) {
   }
   return line;
 }
+
+inline std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 }  // namespace tessera::program::cli
