@@ -82,13 +82,8 @@ std::vector<Setting> other_steps(const Scene& scene) {
     add("nearest", "the nearest texel, without mipmaps", {.texture = TextureCap::nearest});
   }
   if (is_lit)
-    for (const int levels : {1, 4, 16}) {
-      const std::string number = std::to_string(levels);
-      add("light_threshold_" + number,
-          "lights whose summed contribution to a draw stays below " + number +
-              (levels == 1 ? " level" : " levels") + " are left out",
-          {.light_threshold = static_cast<float>(levels) / 255});
-    }
+    add("light_threshold_16", "lights whose summed contribution to a draw stays below 16 levels are left out",
+        {.light_threshold = 16.0f / 255});
   return steps;
 }
 

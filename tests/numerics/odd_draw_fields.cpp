@@ -164,7 +164,8 @@ void add_pixels(Fields& f) {
 void add_buffer_and_renderer(Fields& f) {
   [[maybe_unused]] const auto know = [](const FrameBufferFormat& b, const RendererOptions& o) {
     [[maybe_unused]] const auto& [width, height, color_mode, color_bits, palette, depth, stencil_bits,
-                                  alpha_bits, dither, accumulation_bits, samples] = b;
+                                  alpha_bits, dither, dither_in, dither_gamma, accumulation_bits, samples] =
+        b;
     [[maybe_unused]] const auto& [threads, tile_size, instruction_set, elide, bin_memory, debug, executor,
                                   progress, log, trace] = o;
   };
@@ -195,7 +196,12 @@ void add_buffer_and_renderer(Fields& f) {
   f.choice(
       "format.depth", kBuffer, [](InterfaceCase& w) { return &w.format.depth; }, DepthFormat::float32);
   f.choice(
-      "format.dither", kBuffer, [](InterfaceCase& w) { return &w.format.dither; }, Dither::bayer8);
+      "format.dither", kBuffer, [](InterfaceCase& w) { return &w.format.dither; }, Dither::pattern);
+  f.choice(
+      "format.dither_in", kBuffer, [](InterfaceCase& w) { return &w.format.dither_in; }, DitherSpace::light);
+  f.number(
+      "format.dither_gamma", kBuffer, [](InterfaceCase& w) { return &w.format.dither_gamma; },
+      [](double v) { return v == 0 || (v >= 1 && v <= 4) ? Verdict::fine : Verdict::refused; });
   f.choice(
       "kept buffers", "Frame::keep", [](InterfaceCase& w) { return &w.kept[2]; }, Buffer::accumulation);
   f.number("options.threads", kRenderer, [](InterfaceCase& w) { return &w.options.threads; }, within(0, 1024),

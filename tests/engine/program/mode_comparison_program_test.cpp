@@ -34,8 +34,19 @@ std::set<std::uint32_t> colors_of(const Picture& picture) {
   return colors;
 }
 
+/// All colours of a converter of `bits` bits per component.
+std::set<std::uint32_t> converter_colors(int bits) {
+  const std::uint32_t max_level = (1u << bits) - 1;
+  const auto shown = [&](std::uint32_t v) { return (2 * 255 * v + max_level) / (2 * max_level); };
+  std::set<std::uint32_t> colors;
+  for (std::uint32_t i = 0; i < 1u << (3 * bits); ++i)
+    colors.insert(shown(i >> (2 * bits)) << 16 | shown(i >> bits & max_level) << 8 | shown(i & max_level));
+  return colors;
+}
+
 /// All colours that a mode can show; a mode of 12 bits has components of 4 bits.
 std::set<std::uint32_t> colors_of(const DisplayMode& mode) {
+  if (mode.palette_component_bits > 0) return converter_colors(mode.palette_component_bits);
   const auto level = [](float c) { return static_cast<std::uint32_t>(c * 255 + 0.5f); };
   std::set<std::uint32_t> colors;
   for (const Color& c : mode.palette) colors.insert(level(c.r) << 16 | level(c.g) << 8 | level(c.b));
@@ -68,6 +79,7 @@ TEST_F(ModeComparison, WritesAPictureForEachModeAndDither) {
     EXPECT_EQ(shown.height, mode.height) << file;
     const std::set<std::uint32_t> found = colors_of(shown), known = colors_of(mode);
     EXPECT_GE(found.size(), 2u) << file;
+    EXPECT_LE(found.size(), std::size_t{1} << mode.color_bits) << file;
     EXPECT_TRUE(std::ranges::includes(known, found)) << file;
     EXPECT_EQ(row["mode_bytes"], memory_bytes(mode));
     EXPECT_EQ(row["buffer_bytes"], FrameBuffer::memory_bytes(frame_buffer_format(mode))) << file;
