@@ -304,6 +304,10 @@ void count_buffers(WorkCounts& counts, const FinishedFrame& frame) {
   if (format.samples > 1)
     counts[format.samples == 4 ? PriceItem::resolved_4 : PriceItem::resolved_8] += touched;
   count_stores(counts, frame, pixels);
+  if (frame.target.diffusion && (frame.presented || frame.commands.attachments.color.stores())) {
+    counts[PriceItem::diffused_pixel] += pixels;
+    if (frame.target.stored_layout.index) counts[PriceItem::diffused_index_pixel] += pixels;
+  }
   for (const TileClear& clear : frame.commands.clears)
     if (clear.dithered) counts[PriceItem::dithered_clear] += area(clear.rect);
   for (const TileAccumulation& accumulation : frame.commands.accumulations) {

@@ -116,6 +116,8 @@ constexpr ItemWords kItems[] = {
     {PriceItem::texture_linear_mipmap_nearest, "texture_linear_mipmap_nearest", PriceUnit::shaded_pixel},
     {PriceItem::texture_nearest_mipmap_linear, "texture_nearest_mipmap_linear", PriceUnit::shaded_pixel},
     {PriceItem::texture_linear_mipmap_linear, "texture_linear_mipmap_linear", PriceUnit::shaded_pixel},
+    {PriceItem::diffused_pixel, "diffused_pixel", PriceUnit::frame_pixel},
+    {PriceItem::diffused_index_pixel, "diffused_index_pixel", PriceUnit::frame_pixel},
 };
 static_assert(std::size(kItems) == kPriceItems);
 constexpr bool are_in_order() {
@@ -178,7 +180,8 @@ double predicted_seconds(const WorkCounts& counts, const PriceList& prices, int 
   double serial = 0, parallel = 0;
   for (std::size_t i = 0; i < kPriceItems; ++i) {
     const auto item = static_cast<PriceItem>(i);
-    const bool is_serial = item == PriceItem::frame || item == PriceItem::draw;
+    const bool is_diffusion = item == PriceItem::diffused_pixel || item == PriceItem::diffused_index_pixel;
+    const bool is_serial = item == PriceItem::frame || item == PriceItem::draw || is_diffusion;
     (is_serial ? serial : parallel) += counts[item] * prices[item].nanoseconds;
   }
   return 1e-9 * std::max(serial + parallel / threads, 0.0);

@@ -118,10 +118,12 @@ enum class PriceItem : std::uint8_t {
   texture_nearest_mipmap_nearest,  ///< one texel of one level
   texture_linear_mipmap_nearest,   ///< four texels of one level
   texture_nearest_mipmap_linear,   ///< one texel of two levels
-  texture_linear_mipmap_linear     ///< four texels of two levels
+  texture_linear_mipmap_linear,    ///< four texels of two levels
+  // The finished frame.
+  diffused_pixel,       ///< a pixel of a frame with error diffusion, on one thread
+  diffused_index_pixel  ///< addition of a palette to it
 };
-inline constexpr std::size_t kPriceItems =
-    static_cast<std::size_t>(PriceItem::texture_linear_mipmap_linear) + 1;
+inline constexpr std::size_t kPriceItems = static_cast<std::size_t>(PriceItem::diffused_index_pixel) + 1;
 
 /// Unit in which an item is counted.
 enum class PriceUnit : std::uint8_t {
@@ -170,8 +172,8 @@ TESSERA_API bool is_triangle_size(PriceItem item);
 /// @param covered_pixels  of all of them together
 TESSERA_API void add_triangles(WorkCounts& counts, double triangles, double covered_pixels);
 
-/// Time of a frame with this work: the sum of units times prices. Items without a price count as 0. `frame`
-/// and `draw` count on one thread; the rest is divided by the threads.
+/// Time of a frame with this work: the sum of units times prices. Items without a price count as 0. `frame`,
+/// `draw` and error diffusion count on one thread; the rest is divided by the threads.
 /// @param threads  at least 1
 /// @throws Error  for threads out of range
 TESSERA_API double predicted_seconds(const WorkCounts& counts, const PriceList& prices, int threads);

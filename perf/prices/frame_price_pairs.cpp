@@ -81,6 +81,15 @@ PriceFrame accumulating(int accumulations, int returns) {
   return frame;
 }
 
+/// Frames that are shown, with Floyd-Steinberg dither or without.
+PriceFrame diffused(ColorMode mode, Dither dither) {
+  return changed(points_in_tiles(), [&](PriceFrame& f) {
+    f.format.color_mode = mode;
+    f.format.color_bits = mode == ColorMode::index ? 8 : 16;
+    f.format.dither = dither;
+  });
+}
+
 PricePair draws() {
   // 1,200 triangles of 16 pixels: one draw each, or all in one.
   PriceFrame frame;
@@ -122,6 +131,12 @@ std::vector<PricePair> frame_price_pairs() {
       {.item = PriceItem::dithered_clear,
        .with = changed(cleared(1280, 960), [](PriceFrame& f) { f.format.dither = Dither::bayer8; }),
        .without = cleared(1280, 960)},
+      {.item = PriceItem::diffused_pixel,
+       .with = diffused(ColorMode::rgb, Dither::floyd_steinberg),
+       .without = diffused(ColorMode::rgb, Dither::none)},
+      {.item = PriceItem::diffused_index_pixel,
+       .with = diffused(ColorMode::index, Dither::floyd_steinberg),
+       .without = diffused(ColorMode::rgb, Dither::floyd_steinberg)},
       {.item = PriceItem::accumulated, .with = accumulating(4, 1), .without = accumulating(2, 1)},
       {.item = PriceItem::returned, .with = accumulating(2, 3), .without = accumulating(2, 1)},
       resolved(PriceItem::resolved_4, 4),
