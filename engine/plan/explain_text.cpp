@@ -126,6 +126,7 @@ constexpr ReasonWords kReasons[] = {
     {EffectReason::per_2x2_pixels, "per_2x2_pixels", "once per triangle and 2x2 pixels"},
     {EffectReason::per_4x4_pixels, "per_4x4_pixels", "once per triangle and 4x4 pixels"},
     {EffectReason::below_threshold, "below_threshold", "skipped, it is below the threshold"},
+    {EffectReason::per_finished_frame, "per_finished_frame", "once, on the finished frame"},
 };
 
 struct BufferWords {

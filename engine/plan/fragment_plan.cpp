@@ -112,6 +112,8 @@ FragmentPlan plan_fragments(const DrawState& state, const FrameBufferState& targ
   }
   if (writes_color && state.blend) plan_blend(plan, *state.blend, alpha, notes);
   if (ops.dither != nullptr) notes.active(Effect::dither);
+  if (writes_color && !only_indices && target.diffusion)
+    notes.active(Effect::dither, EffectReason::per_finished_frame);
   if (writes_color && only_indices && target.format.dither != Dither::none)
     notes.skipped(Effect::dither, EffectReason::stores_indices);
   if (writes_color && state.logic_op != LogicOp::copy) {

@@ -105,7 +105,8 @@ enum class EffectReason : std::uint8_t {
   capped,                     ///< replaced by a less accurate variant
   per_2x2_pixels,             ///< evaluated once per triangle and 2x2 pixels
   per_4x4_pixels,             ///< evaluated once per triangle and 4x4 pixels
-  below_threshold             ///< the light's contribution is below Quality::light_threshold
+  below_threshold,            ///< the light's contribution is below Quality::light_threshold
+  per_finished_frame          ///< applied once, to the finished frame
 };
 
 /// One effect of a draw. Frame::effects returns them, Frame::explain their text.

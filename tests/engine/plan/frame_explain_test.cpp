@@ -331,7 +331,7 @@ TEST(Explain, CodesAreDistinctKebabCase) {
   };
   for (int i = 0; i <= static_cast<int>(Effect::texture_filter); ++i) check(code(static_cast<Effect>(i)));
   codes.clear();
-  for (int i = 0; i <= static_cast<int>(EffectReason::below_threshold); ++i)
+  for (int i = 0; i <= static_cast<int>(EffectReason::per_finished_frame); ++i)
     check(code(static_cast<EffectReason>(i)));
   EXPECT_EQ(code(Effect::depth_test), "depth_test");
   EXPECT_EQ(code(EffectReason::no_depth_buffer), "no_depth_buffer");
