@@ -112,26 +112,23 @@ class LevelsByLight {
 class Entries {
  public:
   Entries(const Palette& palette, const std::optional<LightCurve>& light)
-      : search_(palette, palette_spread(palette.entries.size()) / 2, level_values(light)),
-        margin_(palette_spread(palette.entries.size()) / 2) {
+      : search_(palette, 0, level_values(light)) {
     const LevelValues value = level_values(light);
     for (const Rgb8 c : palette.entries) values_.push_back(Values{value[c.r], value[c.g], value[c.b], 0});
     if (values_.empty()) values_.push_back(Values{});
   }
-  /// Values with errors, limited.
-  Values limited(Values wanted) const { return lesser(greater(wanted, all(-margin_)), all(1 + margin_)); }
   Rounded operator()(Values wanted) const {
-    const std::uint32_t index = search_.nearest_unclamped(wanted[0], wanted[1], wanted[2]);
+    const std::uint32_t index = search_.nearest(wanted[0], wanted[1], wanted[2]);
     return {index, values_[index]};
   }
 
  private:
   PaletteSearch search_;
-  float margin_;
   std::vector<Values> values_;
 };
 
-Values limited(Values wanted, const Entries& entries) { return entries.limited(wanted); }
+/// Values with errors, limited for palettes.
+Values limited(Values wanted, const Entries&) { return lesser(greater(wanted, Values{}), all(1)); }
 template <class Quantizer>
 Values limited(Values wanted, const Quantizer&) {
   return wanted;  // levels cover 0..1: errors stay within half a step

@@ -49,8 +49,8 @@ inline constexpr std::array<ErrorShare, 12> kJarvis{{{1, 0, 7.0f / 48},
 /// Distributes the rounding error of each pixel among its neighbours.
 /// - Rows run from the top, alternately to the right and to the left (serpentine).
 /// - Values are stored values, or their light. RGB components are rounded to the nearest level. For a palette
-///   the nearest entry is taken; values with errors are limited to half the palette's spread beyond 0..1, so
-///   that colours which no mix of entries reaches leave no trail.
+///   the nearest entry is taken; values with errors are limited to 0..1, so that colours which no mix of
+///   entries reaches leave no trail.
 /// - Shares beyond the left and right edge go to the pixel at the edge, those of the last pixel of a row to
 ///   the pixel below it; shares below the picture are lost.
 /// - A pixel that a draw gave an index keeps it, and neither takes nor passes errors.

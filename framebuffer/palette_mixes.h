@@ -27,8 +27,7 @@ class PaletteMixes {
   /// Lists the pairs of entries: a few milliseconds for 256 entries. Throws std::bad_alloc only.
   /// @param light  mixes have the mean light of their entries; absent: the mean stored values
   /// @param steps  shares are multiples of 1 / steps, the number of a dither's thresholds; 1 to 4096
-  /// @param reach  only this number of entries nearest to a colour are mixed, at least 2: with few the pattern is
-  /// finer
+  /// @param reach  number of entries nearest to a colour that are mixed, at least 2; few make finer patterns
   /// @pre at most kMaxMixedEntries entries
   PaletteMixes(const Palette& palette, const std::optional<LightCurve>& light, int steps,
                std::size_t reach = kMaxMixedEntries);

@@ -153,7 +153,7 @@ static_assert(is_indexed_by(kEffects, &EffectWords::effect));
 static_assert(is_indexed_by(kReasons, &ReasonWords::reason));
 static_assert(is_indexed_by(kBufferReasons, &BufferWords::reason));
 static_assert(std::size(kEffects) == static_cast<std::size_t>(Effect::texture_filter) + 1);
-static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::below_threshold) + 1);
+static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::per_finished_frame) + 1);
 
 const EffectWords& words_of(Effect effect) { return kEffects[static_cast<std::size_t>(effect)]; }
 const ReasonWords& words_of(EffectReason reason) { return kReasons[static_cast<std::size_t>(reason)]; }

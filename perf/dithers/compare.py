@@ -46,6 +46,13 @@ def find(name, version_option, version_text):
     return None
 
 
+def ratio_of(ours, theirs):
+    """Ratio of two errors, which may be 0."""
+    if ours == theirs:
+        return 1.0
+    return ours / theirs if theirs > 0 else float("inf")
+
+
 def scene_name(scene):
     return os.path.splitext(os.path.basename(scene))[0]
 
@@ -144,12 +151,14 @@ class Comparison:
             self.add(f"free, {2 ** bits} colours", scene, ours, theirs, exact)
 
     def summary(self):
-        lines = ["", f"{'':34} {'median, ours':>12} {'theirs':>8} {'ratio':>8}   ours is nearer in"]
+        lines = ["", f"{'':34} {'median, ours':>12} {'theirs':>8} {'ratio':>8} {'of means':>8} {'worst':>8}   ours is nearer in"]
         for kind, pairs in self.pairs.items():
             ours, theirs = (statistics.median(column) for column in zip(*pairs))
-            ratio = statistics.median(a / b for a, b in pairs)
+            ratio = statistics.median(ratio_of(a, b) for a, b in pairs)
+            mean_ratio = statistics.mean(a for a, _ in pairs) / statistics.mean(b for _, b in pairs)
+            worst = max(ratio_of(a, b) for a, b in pairs)
             nearer = sum(a < b for a, b in pairs)
-            lines.append(f"{kind:34} {ours:12.4f} {theirs:8.4f} {ratio:8.3f}   {nearer} of {len(pairs)} scenes")
+            lines.append(f"{kind:34} {ours:12.4f} {theirs:8.4f} {ratio:8.3f} {mean_ratio:8.3f} {worst:8.3f}   {nearer} of {len(pairs)} scenes")
         return "\n".join(lines)
 
 
