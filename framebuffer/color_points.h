@@ -22,10 +22,9 @@ constexpr double squared_point_distance(const Oklab& x, const Oklab& y) noexcept
 
 /// Arrays of points, padded for kernels with points of weight 0.
 /// - Weights of colours of a picture: pixels^1.5. Least squares alone would give too many entries to few
-/// pixels:
-///   in a plane, entries per colour follow the square root of the weight, while the mean of a less steep
-///   error, FLIP's distance^0.7, asks for the weight to the power 2 / 2.7 (A. Gersho, Asymptotically optimal
-///   block quantization, 1979).
+///   pixels: in a plane, entries per colour follow the square root of the weight, while the mean of a less
+///   steep error, FLIP's distance^0.7, asks for the weight to the power 2 / 2.7 (A. Gersho, Asymptotically
+///   optimal block quantization, 1979).
 struct ColorPoints {
   static constexpr std::size_t kPadding = 16;  ///< array sizes are multiples of this, the widest vector
 

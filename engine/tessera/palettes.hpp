@@ -72,13 +72,11 @@ struct LitMaterials {
 };
 /// The palette of lit materials, before anything is drawn.
 /// - Ramps of each material: from its colour in ambient light over full diffuse light to the highlight, for
-/// each
-///   light alone and for all of them, clamped to 0 to 1. Emission is included. Lights shine with their full
-///   colour, divided by attenuation_constant if that is above 1.
+///   each light alone and for all of them, clamped to 0 to 1. Emission is included. Lights shine with their
+///   full colour, divided by attenuation_constant if that is above 1.
 /// - `colors` are single colours: background, unlit draws, textures. Clamped to 0 to 1.
 /// - The ends of ramps and `colors` have entries; others are evenly spaced along all ramps, by their lengths
-/// in
-///   OKLab. With more ends and colours than entries, the adaptive palette of all of them is returned.
+///   in OKLab. With more ends and colours than entries, the adaptive palette of all of them is returned.
 /// - Dark to light, distinct colours of the converter. Fewer than `count` only if the ramps have no more.
 /// - Same bits on every machine.
 /// @throws Error  without a material and a colour, for values that are not finite, or requests out of range

@@ -9,11 +9,9 @@
 // Conventions:
 // - Values are double, three per colour, in the order of the space's name. Angles are in degrees.
 // - R'G'B' (`rgb` in names of functions) is a signal, 0 to 1, related to light by a TransferCurve. RGB light
-// is
-//   linear. XYZ and RGB light are relative: white has Y = 1.
+//   is linear. XYZ and RGB light are relative: white has Y = 1.
 // - Nothing is clamped or rounded, except where a function says so: colours outside a space's range keep
-// their
-//   values and convert back.
+//   their values and convert back.
 //
 // Precondition of all functions: values are finite and at most 1e6 in magnitude.
 // Results are the same bits on every machine. No function throws; any thread may call any function.

@@ -10,8 +10,7 @@ namespace tessera::program::cli {
 
 /// Reads "NAME" or "NAME:KEY=VALUE,...".
 /// - Keys, for spaces of R'G'B' and light: `curve` srgb, bt709, bt1886, bt1886-1, linear or an exponent from
-/// 0.1
-///   to 10; `black` 0 to 0.99, the light of signal 0 over that of signal 1, for the BT.1886 curves.
+///   0.1 to 10; `black` 0 to 0.99, the light of signal 0 over that of signal 1, for the BT.1886 curves.
 /// @throws Error for other names, keys and values, with the nearest name
 NamedColorSpace parse_color_space(std::string_view text);
 

@@ -44,8 +44,7 @@ inline double linear_from_level(int level) { return detail::linear_from_srgb(lev
 
 /// Luminance and the opponent axes red-green and blue-yellow: (y, x - y, y - z), with XYZ over white.
 /// - YCxCz is (116 y - 16, 500 (x - y), 200 (y - z)). FLIP's filters are linear and their weights sum to 1,
-/// so
-///   factors and offsets are left out.
+///   so factors and offsets are left out.
 constexpr Vector3 opponent_from_rgb(const Vector3& rgb) {
   const Vector3 xyz = kXyzFromRgb * rgb;
   return {xyz[1], xyz[0] - xyz[1], xyz[1] - xyz[2]};

@@ -140,8 +140,7 @@ struct SceneOverrides {
   std::optional<Quality> quality = {};     ///< for the whole frame
 };
 /// @throws Error for values out of range, for a palette that does not fit into the colour bits, and for
-/// values
-///   that the display mode determines
+/// values that the display mode determines
 void apply(const SceneOverrides& overrides, Scene& scene);
 
 /// Returns the fewest colour bits that hold a named palette; 8 for a palette of any number of bits or an
