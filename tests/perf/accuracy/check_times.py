@@ -13,7 +13,7 @@ import sys
 def layers(count):
     """A scene of blended full-window layers, each of which covers and shades every pixel."""
     draw = {"draw": "quad", "lighting": False, "blend": {}, "depth": False}
-    return {"tessera": 1, "title": f"{count} layers", "framebuffer": {"width": 320, "height": 240, "stencil": 0},
+    return {"tessera": 1, "title": f"{count} layers", "framebuffer": {"width": 160, "height": 120, "stencil": 0},
             "camera": {"eye": [0, 0, 1], "target": [0, 0, 0],
                        "projection": {"type": "orthographic", "left": -1, "right": 1, "bottom": -1, "top": 1, "near": 0, "far": 2}},
             "meshes": {"quad": {"primitive": "quads", "positions": [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]],
