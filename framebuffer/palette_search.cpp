@@ -9,8 +9,9 @@ namespace tessera::detail {
 namespace {
 
 constexpr int kMaxDivisions = 2;
-constexpr std::size_t kFewCandidates = 8;  // a cell with more, and with kMinInside entries inside, is divided
-constexpr std::ptrdiff_t kMinInside = 2;
+// A cell with more candidates, and at least kMinNear entries inside or around it, is divided.
+constexpr std::size_t kFewCandidates = 16;
+constexpr std::ptrdiff_t kMinNear = 4;
 constexpr float kMaxSquaredDistance = 16;  // exceeds the squared diagonal of the searched cube, 12
 
 // NaN becomes 0.
@@ -117,15 +118,16 @@ void PaletteSearch::append_cells(std::uint32_t place, const Box& box, int cells,
 }
 
 void PaletteSearch::append_cell(std::uint32_t place, const Box& box, const Positions& among, int divisions) {
-  // Parts have fewer candidates only if several entries lie inside. That also bounds the number of cells.
-  const auto is_inside = [&](std::uint32_t i) {
+  // Parts have fewer candidates only if several entries lie near. That also bounds the number of cells: an
+  // entry is near 27 of them.
+  const auto is_near = [&](std::uint32_t i) {
     const float c[3] = {entries_[i].r, entries_[i].g, entries_[i].b};
     for (int axis = 0; axis < 3; ++axis)
-      if (c[axis] < box.low[axis] || c[axis] >= box.low[axis] + box.size) return false;
+      if (c[axis] < box.low[axis] - box.size || c[axis] >= box.low[axis] + 2 * box.size) return false;
     return true;
   };
   const bool is_dense =
-      among.size() > kFewCandidates && std::count_if(among.begin(), among.end(), is_inside) >= kMinInside;
+      among.size() > kFewCandidates && std::count_if(among.begin(), among.end(), is_near) >= kMinNear;
   if (is_dense && divisions < kMaxDivisions) {
     const auto first = static_cast<std::uint32_t>(cells_.size());
     cells_.resize(cells_.size() + cell_index(kParts, kParts, 0, 0));

@@ -12,7 +12,7 @@ namespace {
 constexpr int kFailed = 1, kBadUsage = 2, kInterrupted = 130;
 
 constexpr const char* kExamples = R"(examples:
-  tessera accuracy -o costs                            all scenes; about ten minutes
+  tessera accuracy -o costs                            all scenes; about seven minutes
   tessera accuracy -o costs --quick                    three scenes; less than a minute
   tessera accuracy -o costs --scenes none mine.json    one scene file)";
 
