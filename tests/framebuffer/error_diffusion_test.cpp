@@ -156,6 +156,15 @@ TEST(ErrorDiffusion, IndicesStayAndSeparateTheirNeighbours) {
   EXPECT_EQ(Words(a.begin() + 7 * kWidth, a.end()), Words(b.begin() + 7 * kWidth, b.end()));
 }
 
+TEST(ErrorDiffusion, SharesPassOverAnIndex) {
+  // 115 / 255 becomes black. 5/48 of its error makes 117 / 255, two pixels on, white.
+  const Case c{
+      .kind = Dither::jarvis, .stored = index_layout(1), .palette = default_palette_of(1), .light = {}};
+  const std::uint32_t flag = working_layout(c.stored).index_flag();
+  EXPECT_EQ(diffused(c, {0x737373, flag | 1, 0x757575}, 3), (Words{0, 1, 1}));
+  EXPECT_EQ(diffused(c, {0, flag | 1, 0x757575}, 3), (Words{0, 1, 0}));
+}
+
 TEST(ErrorDiffusion, AlphaPassesThrough) {
   ColorLayout stored = rgb_layout(12);
   stored.alpha_bits = 8;
