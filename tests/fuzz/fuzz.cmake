@@ -13,7 +13,7 @@
 # bug.
 function(tessera_add_fuzz_target name)
   add_executable(fuzz_${name} ${tests}/fuzz/fuzz_${name}.cpp ${ARGN})
-  target_link_libraries(fuzz_${name} PRIVATE tessera_options tessera_kernels tessera_engine $<TARGET_NAME_IF_EXISTS:tessera_scene>
+  target_link_libraries(fuzz_${name} PRIVATE tessera_options tessera_instruction_set tessera_kernels tessera_engine $<TARGET_NAME_IF_EXISTS:tessera_scene>
     TBB::tbb glm::glm Threads::Threads ${CMAKE_DL_LIBS})
   target_compile_options(fuzz_${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # most time is spent in the code under test
   if(TESSERA_SANITIZE MATCHES fuzzer)
