@@ -65,7 +65,7 @@ struct CrtTube {
   ShadowMask mask = ShadowMask::dots;
   double pitch_mm =
       0.28;  ///< distance of nearest phosphors of one colour, 0.05 to 5; grille, slots: horizontal
-  double slot_height_mm = 0;  ///< height of a slot with its bridge, up to 10; 0: 2.5 times the pitch
+  double slot_height_mm = 0;  ///< height of a slot with its bridge, 0.05 to 10; 0: 2.5 times the pitch
   /// Width of the beam at half its maximum, 0.02 to 5; the profile is Gaussian. 0: half the distance of
   /// lines.
   double beam_mm = 0;
@@ -85,8 +85,8 @@ struct CrtTube {
   double gamma = 2.4;    ///< exponent of BT.1886, 1 to 4
   double black = 0.001;  ///< light of signal 0 over that of signal 1, 0 to 0.5
   Phosphor phosphor = Phosphor::p22;
-  /// Time over which light is collected, milliseconds, 0.01 to one frame; shorter times show the travelling
-  /// beam. 0: one frame.
+  /// Time over which light is collected, milliseconds, 0.01 to 1000 and at most one frame; shorter times show
+  /// the travelling beam. 0: one frame.
   double exposure_ms = 0;
 };
 
@@ -101,7 +101,7 @@ struct LcdPanel {
   int bits = 8;            ///< 8, or 6 with temporal dither over four frames: 253 levels
   double response_ms = 0;  ///< time from 10 to 90 % of a change, 0 to 1000
   DisplayPrimaries primaries = DisplayPrimaries::bt709;
-  DisplayWhite white = DisplayWhite::d65;  ///< of the backlight
+  DisplayWhite white = DisplayWhite::d65;  ///< white of the backlight
   double gamma = 2.2;                      ///< light over signal, 1 to 4
   double black = 0.0025;                   ///< light of signal 0 over that of signal 1, 0 to 0.5
 };
@@ -110,14 +110,14 @@ struct LcdPanel {
 struct PlasmaPanel {
   double diagonal_in = 42;  ///< visible diagonal, inches, 1 to 200
   double fill = 0.75;       ///< share of a cell's width and height that emits, 0.2 to 1
-  /// Light of the subfields relative to each other, 1 to 12 weights, each above 0.
+  /// Light of the subfields relative to each other, 1 to 12 weights, each 0.001 to 10000.
   std::vector<double> subfields{1, 2, 4, 8, 16, 32, 64, 128};
   DisplayPrimaries primaries = DisplayPrimaries::bt709;
   DisplayWhite white = DisplayWhite::d65;
   double gamma = 2.2;    ///< light that the nearest sum of subfields approximates, over signal, 1 to 4
   double black = 0.001;  ///< light of the priming discharges over that of white, 0 to 0.5
-  double exposure_ms =
-      0;  ///< time over which light is collected; shorter times show single subfields. 0: one frame
+  /// Time over which light is collected, milliseconds, as of a tube; shorter times show single subfields.
+  double exposure_ms = 0;
 };
 
 enum class EinkUpdate : std::uint8_t {
@@ -157,7 +157,7 @@ struct Television {
   double chroma_mhz = 0;    ///< bandwidth of each colour difference at the encoder, 0.1 to 3; 0: 1.3
   double receiver_mhz = 0;  ///< bandwidth of the receiver's chroma, 0.1 to 3; 0: 0.5 for NTSC, 1.0 for PAL
   double phase_deg = 0;     ///< error of the subcarrier's phase between burst and chroma, -180 to 180
-  double gain = 1;          ///< of chroma relative to luma between encoder and receiver, 0 to 4
+  double gain = 1;          ///< chroma relative to luma between encoder and receiver, 0 to 4
   double setup_ire = -1;    ///< NTSC: level of black, 0 to 10; -1: 7.5
 };
 
@@ -171,13 +171,34 @@ struct Display {
   Television television{};
 };
 
+/// A kind with its name.
+struct NamedDisplayKind {
+  DisplayKind kind;
+  std::string_view name;  ///< "crt"
+  std::string_view description;
+};
+
+/// All kinds. The table is constant.
+TESSERA_DISPLAY_API std::span<const NamedDisplayKind> display_kinds();
+
+/// The display that the name of a kind means without parameters.
+/// - Members have the defaults of their types, except that ntsc and pal have the tube of a television: 20
+///   inches, slots of 0.64 mm, and the primaries smpte_c or ebu.
+TESSERA_DISPLAY_API Display default_display(DisplayKind kind);
+
 /// A display by name with parameters after a colon: "crt:diagonal=15,pitch=0.25,mask=grille".
 /// - Names: the kinds (crt, lcd, plasma, eink, ntsc, pal), and those of display_presets().
-/// - Parameters: those of display_parameters() for the kind; later ones replace earlier ones.
+/// - Parameters: those of display_parameters() for the kind; later ones replace earlier ones, and all replace
+///   those of a preset.
+/// - The result has passed check().
 /// @throws DisplayError  for unknown names and values out of range
 TESSERA_DISPLAY_API Display find_display(std::string_view text);
 
-/// Checks that all values are in their ranges and fit together.
+/// Checks that all values of a display's kind are in their ranges and fit together.
+/// - Monochrome phosphors require ShadowMask::none.
+/// - The black of paper is below its white.
+/// - VideoDecoder::simple and VideoDecoder::delay_line are for PAL.
+/// - An exposure longer than a frame is refused by Screen, which knows the mode.
 /// @throws DisplayError
 TESSERA_DISPLAY_API void check(const Display& display);
 
@@ -185,8 +206,8 @@ TESSERA_DISPLAY_API void check(const Display& display);
 struct DisplayParameter {
   std::string_view name;      ///< "pitch"
   std::string_view unit;      ///< "mm"; empty: a plain number or a word
-  std::string values;         ///< "0.05 to 5", or "dots, slots, grille, none"
-  std::string default_value;  ///< "0.28"
+  std::string values;         ///< "0.05 to 5", "0.02 to 5 or auto", or "none, dots, slots, grille"
+  std::string default_value;  ///< "0.28"; of default_display()
   std::string_view description;
   std::string_view source;  ///< "choice" if the default has no source
 };

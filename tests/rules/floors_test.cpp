@@ -29,9 +29,12 @@ const std::vector<std::string> kCore = {"framebuffer/",    "raster/",         "s
                                         "engine/buffers/", "engine/runtime/", "engine/tessera/"};
 
 /// The library tessera::display, which is linked separately from the core.
-const std::vector<std::string> kDisplay = {
-    "framebuffer/display/", "framebuffer/tessera/color.hpp", "framebuffer/tessera/display_export.h",
-    "framebuffer/tessera/rgb_primaries.hpp", "framebuffer/tessera/transfer_curve.hpp"};
+const std::vector<std::string> kDisplay = {"framebuffer/display/",
+                                           "framebuffer/tessera/color.hpp",
+                                           "framebuffer/tessera/display.hpp",
+                                           "framebuffer/tessera/display_export.h",
+                                           "framebuffer/tessera/rgb_primaries.hpp",
+                                           "framebuffer/tessera/transfer_curve.hpp"};
 /// Headers that hold functions alone, and need nothing of a library.
 const std::set<std::string> kArithmetic = {"framebuffer/exact_functions.h", "framebuffer/srgb.h",
                                            "framebuffer/trigonometry.h"};
