@@ -22,6 +22,7 @@ constexpr const char* kRenderExamples = R"(Examples:
   tessera render truck.glb --size 1280x720        a model, as truck.render.png
   tessera render --palette ega16 -o ega.png       16 colours, nearest entry
   tessera render --mode cga -o cga.png --dump cga.bin              as a CGA stores it
+  tessera render --mode vga13h --display vga14 -o tube.png         as its monitor shows it
   tessera render --planes planes --stats          also every bitplane, and statistics
   tessera render scene.json --frames 50 -o 'frame_{frame}.png'     an animation
   tessera render -o term                          the picture in the terminal
@@ -155,6 +156,14 @@ void add_dump(CLI::App& command, RenderRequest& request) {
       ->check(not_empty("FILE's name"));
 }
 
+/// Options of the view need --display.
+void add_display_of(CLI::App& command, DisplayRequest& request) {
+  add_display_view(command, request);
+  CLI::Option* const display = command.get_option("--display");
+  for (const char* const option : {"--scale", "--part", "--frame-ms"})
+    command.get_option(option)->needs(display);
+}
+
 void add_planes(CLI::App& command, RenderRequest& request) {
   command
       .add_option("--planes", request.planes_folder,
@@ -263,6 +272,7 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   add_scene_overrides(*command, request.overrides);
   add_mode(*command, request.overrides);
   add_palette_over(*command, request.overrides);
+  add_display_of(*command, request.display);
   add_dump(*command, request);
   add_planes(*command, request);
   add_view(*command, request.overrides);

@@ -1,10 +1,11 @@
-// Declares the options of `tessera render`, `explain`, `compare`, `modes`, `color` and `selftest`.
+// Declares the options of `tessera render`, `explain`, `compare`, `modes`, `color`, `display` and `selftest`.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 #include "engine/program/cli/color_command.h"
 #include "engine/program/cli/compare_command.h"
+#include "engine/program/cli/display_command.h"
 #include "engine/program/cli/explain_command.h"
 #include "engine/program/cli/modes_command.h"
 #include "engine/program/cli/render_command.h"
@@ -18,6 +19,10 @@ CLI::App* add_explain(CLI::App& program, ExplainRequest& request);
 CLI::App* add_compare(CLI::App& program, CompareRequest& request);
 CLI::App* add_modes(CLI::App& program, ModesRequest& request);
 CLI::App* add_color(CLI::App& program, ColorRequest& request);
+CLI::App* add_display(CLI::App& program, DisplayCommandRequest& request);
 CLI::App* add_selftest(CLI::App& program, SelftestRequest& request);
+
+/// Adds --display, --scale, --part and --frame-ms to a command.
+void add_display_view(CLI::App& command, DisplayRequest& request);
 
 }  // namespace tessera::program::cli

@@ -16,6 +16,7 @@
 #include "engine/program/cli/color_command.h"
 #include "engine/program/cli/command_docs.h"
 #include "engine/program/cli/command_options.h"
+#include "engine/program/cli/display_command.h"
 #include "engine/program/cli/info_command.h"
 #include "engine/program/cli/modes_command.h"
 #include "engine/program/cli/printable.h"
@@ -38,6 +39,7 @@ constexpr const char* kProgramExamples = R"(Examples:
   tessera explain scene.json                      which effects run for each draw, and why
   tessera compare a.png b.png                     how much two pictures differ, and how visibly
   tessera color '#80ff00' --to lab                a colour in another colour space
+  tessera display a.png --display vga14 -o b.png  a picture as a monitor shows it
   tessera info                                    this machine and its instruction sets
   tessera selftest                                check that this machine renders correctly
   tessera completion bash > /etc/bash_completion.d/tessera)";
@@ -77,7 +79,7 @@ std::string unexpected_argument(const CLI::App& program) {
     return message + "; did you mean \"tessera render " + word + "\"?";
   return "unknown command \"" + word + "\"" +
          did_you_mean(word, Names{"render", "explain", "compare", "info", "selftest", "bench", "price",
-                                  "accuracy", "modes", "color", "formats", "completion", "man"});
+                                  "accuracy", "modes", "color", "display", "formats", "completion", "man"});
 }
 
 int usage_error(const std::string& message, const CLI::App& program) {
@@ -125,6 +127,7 @@ struct Requests {
   CompareRequest compare;
   ModesRequest modes;
   ColorRequest color;
+  DisplayCommandRequest display;
   SelftestRequest selftest;
   std::string shell;  ///< for `completion`
 };
@@ -136,6 +139,7 @@ struct Commands {
   CLI::App* compare;
   CLI::App* modes;
   CLI::App* color;
+  CLI::App* display;
   CLI::App* info;
   CLI::App* selftest;
   CLI::App* bench;
@@ -181,6 +185,7 @@ Commands add_commands(CLI::App& program, Requests& requests) {
   commands.compare = add_compare(program, requests.compare);
   commands.modes = add_modes(program, requests.modes);
   commands.color = add_color(program, requests.color);
+  commands.display = add_display(program, requests.display);
   commands.info = add_plain("info", "Describe this machine and what Tessera uses of it", "tessera info");
   commands.selftest = add_selftest(program, requests.selftest);
   commands.bench =
@@ -227,6 +232,7 @@ int run(int argument_count, char** arguments) {
   if (commands.compare->parsed()) threads = &requests.compare.threads;
   const bool compares_modes = !requests.modes.comparison.folder.empty();
   if (compares_modes) threads = &requests.modes.comparison.threads;
+  if (commands.display->parsed()) threads = &requests.display.threads;
   if (commands.selftest->parsed()) threads = &requests.selftest.threads;
   if (threads != nullptr)
     if (const std::string wrong = read_threads_variable(*threads); !wrong.empty())
@@ -253,6 +259,7 @@ int run(int argument_count, char** arguments) {
   }
   if (commands.modes->parsed()) std::cout << modes_text(requests.modes);
   else if (commands.color->parsed()) std::cout << colors_text(requests.color);
+  else if (commands.display->parsed()) display(requests.display);
   else if (commands.info->parsed()) std::cout << info_text();
   else if (commands.formats->parsed()) std::cout << formats_text();
   else if (commands.completion->parsed()) std::cout << completion_script(requests.shell, docs_of(program));

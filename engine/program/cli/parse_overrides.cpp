@@ -6,9 +6,7 @@
 #include <vector>
 
 namespace tessera::program::cli {
-namespace {
 
-// Parses comma-separated numbers. Returns nothing if the text is malformed or their count is out of range.
 std::vector<double> parse_numbers(const std::string& text, std::size_t min_count, std::size_t max_count) {
   std::vector<double> numbers;
   std::istringstream stream(text);
@@ -21,8 +19,6 @@ std::vector<double> parse_numbers(const std::string& text, std::size_t min_count
   if (text.ends_with(',')) return {};
   return numbers.size() >= min_count && numbers.size() <= max_count ? numbers : std::vector<double>{};
 }
-
-}  // namespace
 
 bool parse_size(const std::string& text, SceneOverrides& overrides) {
   const std::size_t cross = text.find('x');

@@ -1,11 +1,17 @@
 // Parses options that override values of a scene.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "engine/program/scene/scene.h"
 
 namespace tessera::program::cli {
+
+/// Parses finite numbers separated by commas. Returns nothing if the text is malformed or the count of
+/// numbers out of range.
+std::vector<double> parse_numbers(const std::string& text, std::size_t min_count, std::size_t max_count);
 
 // Each returns false for malformed text; the overrides must not be used then.
 

@@ -18,6 +18,7 @@
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/scene_buffers.h"
 #include "engine/program/cli/scene_input.h"
+#include "engine/program/cli/shown_pictures.h"
 #include "engine/program/compare/picture_errors.h"
 #include "engine/program/imageio/atomic_file.h"
 #include "engine/program/imageio/pbm.h"
@@ -74,6 +75,12 @@ bool is_indexed_png(const FrameBufferFormat& format, const std::string& path) {
 /// Frames of 1 bit may be written as PBM.
 bool is_one_bit_pbm(const FrameBufferFormat& format, const std::string& path) {
   return format.color_bits == 1 && lower_case_extension(path) == ".pbm";
+}
+
+/// The mode of a scene, or one of square pixels.
+VideoMode scene_video_mode(const Scene& scene) {
+  if (scene.mode) return video_mode(*scene.mode);
+  return {.width = scene.framebuffer.width, .height = scene.framebuffer.height};
 }
 
 /// Keeps the buffers that are read after the frame.
@@ -142,12 +149,16 @@ void check_outputs(const RenderRequest& request, const std::string& path) {
   }
 }
 
+/// @param shown  the screen that shows the picture; null: the picture is written itself
 void write_frame(const RenderRequest& request, const Scene& scene, const Picture& picture,
-                 const SceneBuffers& buffers, const std::string& file, int frame) {
+                 const ShownPictures* shown, const SceneBuffers& buffers, const std::string& file,
+                 int frame) {
   const auto path_of = [&](const std::string& name) { return frame_path(name, frame, request.frames); };
   const int compression = request.output.compression;
   const FrameBufferFormat& format = buffers.shown().format();
-  if (is_indexed_png(format, file)) write_indexed_png(indexed_picture(buffers.shown()), file, compression);
+  if (shown != nullptr) shown->write(file, compression);
+  else if (is_indexed_png(format, file))
+    write_indexed_png(indexed_picture(buffers.shown()), file, compression);
   else if (is_one_bit_pbm(format, file))
     write_file_atomically(file, encode_pbm(screen_picture(buffers.shown(), {})));
   else write_output(picture, file, compression);
@@ -171,6 +182,13 @@ int render(RenderRequest request) {
     throw Error("--dump writes the memory of a display mode, and the scene has none; name one with --mode");
   std::optional<Picture> reference;
   if (!request.reference.empty()) reference = read_picture(request.reference);
+
+  std::optional<ShownPictures> shown;
+  if (request.display.display) {
+    shown.emplace(request.display, scene_video_mode(input.scene()), path, request.options.threads,
+                  request.options.instruction_set);
+    shown->print_notes();
+  }
 
   std::optional<ThreadLimit> raised_limit;
   if (request.options.threads > available_cores()) raised_limit.emplace(request.options.threads);
@@ -203,8 +221,8 @@ int render(RenderRequest request) {
     Frame frame(buffers.drawn, renderer);
     Picture picture(scene.framebuffer.width, scene.framebuffer.height);
     const FrameBufferFormat& format = buffers.shown().format();
-    const bool reads_colors = !scene.reduced && (is_indexed_png(format, path) ||
-                                                 is_one_bit_pbm(format, path) || !request.dump.empty());
+    const bool writes_bits = !shown && (is_indexed_png(format, path) || is_one_bit_pbm(format, path));
+    const bool reads_colors = !scene.reduced && (writes_bits || !request.dump.empty());
     if (request.explain && f == 0) {
       record(scene, frame);
       std::cout << explanation_text(scene, frame);
@@ -219,16 +237,18 @@ int render(RenderRequest request) {
       run.render_ms.push_back(milliseconds_since(render_start));
     }
     progress.clear();
+    if (shown) shown->show(picture);
     const auto write_start = std::chrono::steady_clock::now();
     const std::string file = frame_path(path, f, request.frames);
-    write_frame(request, scene, picture, buffers, file, f);
+    write_frame(request, scene, picture, shown ? &*shown : nullptr, buffers, file, f);
     run.write_ms += milliseconds_since(write_start);
     for (std::size_t i = 0; i < run.buffer_bytes.size(); ++i)
       run.buffer_bytes[i] = buffers.holding(kBuffers[i]).allocated_bytes(kBuffers[i]);
     if (request.output.path.empty()) std::cerr << "tessera: wrote " << printable(file) << "\n";
     if (request.stats != StatsFormat::none && is_last)
       run.frame.fragments = count_fragments(scene, run.options);
-    if (reference && is_last) exit_code = report_difference(picture, *reference, request);
+    if (reference && is_last)
+      exit_code = report_difference(shown ? shown->image() : picture, *reference, request);
   }
   if (request.stats == StatsFormat::text) std::cerr << stats_text(run);
   if (request.stats == StatsFormat::json) std::cout << stats_json(run);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/program/cli/display_request.h"
 #include "engine/program/cli/output.h"
 #include "engine/program/cli/progress.h"
 #include "engine/program/cli/stats_text.h"
@@ -17,6 +18,7 @@ struct RenderRequest {
   OutputRequest output;       ///< path empty: INPUT.render.png in the current folder
   std::string planes_folder;  ///< empty: planes are not written
   std::string dump;           ///< file for the memory of the display mode; empty: not written
+  DisplayRequest display;     ///< shows the pictures before they are written
   SceneOverrides overrides;
   RendererOptions options;
   int frames = 1;  ///< pictures of the animation

@@ -1,12 +1,12 @@
 #include "engine/program/imageio/picture.h"
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <filesystem>
 #include <string_view>
 
 #include "engine/program/imageio/atomic_file.h"
+#include "engine/program/imageio/float_picture.h"
 #include "engine/program/imageio/module_loader.h"
 #include "engine/program/scene/file_extension.h"
 #include "engine/program/scene/text_file.h"
@@ -14,7 +14,7 @@
 namespace tessera::program {
 namespace {
 
-// Header of the Netpbm formats; PFM and PBM have no maximum.
+// Header of the Netpbm formats; PBM has no maximum.
 std::string header(const char* magic, int width, int height, bool has_maximum = true) {
   return std::string(magic) + "\n" + std::to_string(width) + " " + std::to_string(height) + "\n" +
          (has_maximum ? "255\n" : "");
@@ -28,22 +28,13 @@ std::string pgm(const Picture& picture) {
   return file;
 }
 
-// PFM rows run from the bottom; the negative scale marks little-endian floats.
 std::string pfm(const Picture& picture) {
-  static_assert(std::endian::native == std::endian::little);
-  std::string file = header("PF", picture.width, picture.height, false) + "-1.0\n";
-  for (int y = picture.height - 1; y >= 0; --y)
-    for (int x = 0; x < picture.width; ++x)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const float component =
-            static_cast<float>(
-                picture.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                                  static_cast<std::size_t>(x)) +
-                             c]) /
-            255.0f;
-        file.append(reinterpret_cast<const char*>(&component), sizeof component);
-      }
-  return file;
+  std::vector<float> components;
+  components.reserve(picture.rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+    for (std::size_t c = 0; c < 3; ++c)
+      components.push_back(static_cast<float>(picture.rgba[i + c]) / 255.0f);
+  return encode_pfm(picture.width, picture.height, 3, components);
 }
 
 std::string raw(const Picture& picture) {

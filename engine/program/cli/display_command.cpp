@@ -1,0 +1,71 @@
+#include "engine/program/cli/display_command.h"
+
+#include <iostream>
+
+#include "engine/program/cli/display_list.h"
+#include "engine/program/cli/file_guard.h"
+#include "engine/program/cli/printable.h"
+#include "engine/program/cli/progress.h"
+#include "engine/program/cli/shown_pictures.h"
+
+namespace tessera::program::cli {
+namespace {
+
+std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+int frame_count(const DisplayCommandRequest& request) { return static_cast<int>(request.pictures.size()); }
+
+/// Refuses wrong outputs before anything is read.
+void check_output(const DisplayCommandRequest& request) {
+  const std::string& path = request.output.path;
+  if (is_stream(path)) return;
+  const int frames = frame_count(request);
+  if (frames > 1 && path.find("{frame}") == std::string::npos)
+    throw Error(std::to_string(frames) + " pictures would overwrite \"" + path +
+                "\" with every frame; put {frame} into the name");
+  for (int f = 0; f < frames; ++f)
+    for (const std::string& picture : request.pictures)
+      refuse_overwriting(frame_path(path, f, frames), picture, "input", "-o");
+  require_writable_picture(frame_path(path, 0, frames));
+}
+
+/// @param expected  what the size belongs to: "display mode \"cga\""
+void require_size(const Picture& picture, const std::string& name, const VideoMode& mode,
+                  const std::string& expected) {
+  if (picture.width != mode.width || picture.height != mode.height)
+    throw Error("\"" + name + "\" is " + size_text(picture.width, picture.height) + ", expected " +
+                size_text(mode.width, mode.height) + ", the size of " + expected);
+}
+
+void show_pictures(const DisplayCommandRequest& request) {
+  check_output(request);
+  const Interrupt interrupt;
+  const int frames = frame_count(request);
+  Picture picture = read_picture(request.pictures.front());
+  const VideoMode mode =
+      request.mode ? video_mode(*request.mode) : VideoMode{.width = picture.width, .height = picture.height};
+  const std::string sized = request.mode ? "display mode " + cli::quoted(request.mode->name)
+                                         : "the first picture " + cli::quoted(request.pictures.front());
+  require_size(picture, request.pictures.front(), mode, sized);
+  ShownPictures shown(request.display, mode, request.output.path, request.threads);
+  shown.print_notes();
+  for (int f = 0; f < frames; ++f) {
+    if (Interrupt::pressed()) throw Cancelled("interrupted");
+    if (f > 0) {
+      const std::string& name = request.pictures[static_cast<std::size_t>(f)];
+      picture = read_picture(name);
+      require_size(picture, name, mode, sized);
+    }
+    shown.show(picture);
+    shown.write(frame_path(request.output.path, f, frames), request.output.compression);
+  }
+}
+
+}  // namespace
+
+void display(const DisplayCommandRequest& request) {
+  if (request.list) std::cout << (request.json ? display_list_json() : display_list_text());
+  else show_pictures(request);
+}
+
+}  // namespace tessera::program::cli

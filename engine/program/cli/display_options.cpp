@@ -1,0 +1,135 @@
+// Options of `tessera display`, and those of `tessera render` that concern a display.
+#include <string>
+
+#include "engine/program/cli/command_options.h"
+#include "engine/program/cli/printable.h"
+#include "engine/program/cli/validators.h"
+#include "engine/program/scene/scene_mode.h"
+
+namespace tessera::program::cli {
+namespace {
+
+constexpr const char* kDisplayExamples = R"(Examples:
+  tessera display picture.png --display vga14 -o screen.png        on a VGA monitor of 14 inches
+  tessera display cga.png --mode cga --display cga -o tube.png     on the monitor of a CGA
+  tessera display a.png --display crt:pitch=0.31,mask=slots --part 100,80,12,9 --scale 100 -o near.png
+  tessera display f*.png --display lcd-laptop -o 'lcd_{frame}.png' frames in order
+  tessera display p.png --mode cga-hi --display cga-composite -o artifacts.png
+  tessera display --list                          kinds, parameters and presets)";
+
+void add_display_name(CLI::App& command, DisplayRequest& request) {
+  command
+      .add_option_function<std::string>(
+          "--display",
+          [&request](const std::string& text) {
+            try {
+              request.display = named_display(text);
+            } catch (const Error& error) {
+              throw CLI::ValidationError("--display", error.what());
+            }
+          },
+          "display that shows the picture: a kind (crt, lcd, plasma, eink, ntsc, pal) or a preset, with "
+          "parameters (crt:pitch=0.31,mask=grille); tessera display --list has all")
+      ->option_text("NAME[:KEY=VALUE,...]");
+}
+
+void add_view(CLI::App& command, DisplayRequest& request) {
+  command
+      .add_option("--scale", request.view.scale_px_per_mm,
+                  "pixels of the image per millimetre of the screen; default: 1440 rows")
+      ->option_text("PX_PER_MM")
+      ->check(positive_number());
+  command
+      .add_option_function<std::string>(
+          "--part",
+          [&request](const std::string& text) {
+            if (!parse_part(text, request.view))
+              throw CLI::ValidationError("--part", "found \"" + text +
+                                                       "\", expected X,Y,W,H in millimetres: the upper left "
+                                                       "corner, at least 0, and a size above 0");
+          },
+          "part of the screen in millimetres from its upper left corner; default: all of it")
+      ->option_text("X,Y,W,H");
+  command
+      .add_option("--frame-ms", request.frame_ms,
+                  "milliseconds from each picture to the next; default: one frame of the mode")
+      ->option_text("MS")
+      ->check(positive_number());
+}
+
+void add_pictures(CLI::App& command, DisplayCommandRequest& request) {
+  command
+      .add_option("pictures", request.pictures,
+                  "pictures of the size of the mode; several are frames in order")
+      ->option_text("[PICTURE...]")
+      ->take_all()
+      ->check(not_empty("a picture's name"));
+  command
+      .add_option(
+          "-o,--output", request.output.path,
+          "image to write: .png, .ppm, ... as for render; .pfm receives linear light (BT.709); {frame} "
+          "in the name is the frame's number; - is the standard output (PPM), term the terminal")
+      ->option_text("FILE")
+      ->check(not_empty("FILE's name"));
+  command
+      .add_option("--compression", request.output.compression,
+                  "compression of PNG files: 0 (none) .. 9 (smallest); default: 3")
+      ->option_text("N")
+      ->transform(integer_from(0, 9));
+  command
+      .add_option_function<std::string>(
+          "--mode",
+          [&request](const std::string& name) {
+            try {
+              request.mode = named_display_mode(name);
+            } catch (const Error& error) {
+              throw CLI::ValidationError("--mode", error.what());
+            }
+          },
+          "display mode of the pictures: shape of the pixels and timing; a name that tessera modes lists, or "
+          "WIDTHxHEIGHTxBITS; default: the pictures' size, square pixels, 60 Hz")
+      ->option_text("NAME");
+}
+
+/// Refuses missing operands.
+void check_use(const CLI::App& command, const DisplayCommandRequest& request) {
+  if (command.remaining_size() > 0 || request.list) return;  // remaining words are reported as unexpected
+  if (request.json) throw CLI::ValidationError("--json", "needs --list");
+  if (request.pictures.empty())
+    throw CLI::ValidationError("PICTURE", "found none, expected a picture, frames in order, or --list");
+  if (!request.display.display)
+    throw CLI::ValidationError("--display",
+                               "found none, expected a kind or a preset; tessera display --list has all");
+  if (request.output.path.empty()) throw CLI::ValidationError("-o", "found none, expected a file");
+}
+
+}  // namespace
+
+void add_display_view(CLI::App& command, DisplayRequest& request) {
+  add_display_name(command, request);
+  add_view(command, request);
+}
+
+CLI::App* add_display(CLI::App& program, DisplayCommandRequest& request) {
+  CLI::App* command = program.add_subcommand(
+      "display", "Show pictures on a simulated tube, panel or television, or list the displays");
+  command->footer(kDisplayExamples);
+  command->option_defaults()->take_last();
+  add_pictures(*command, request);
+  add_display_view(*command, request.display);
+  command
+      ->add_option("--time", request.display.start_ms,
+                   "time of the first picture in milliseconds, at least 0; default: 0")
+      ->option_text("MS")
+      ->check(number_from(0, 1e9));
+  command->add_option("--threads", request.threads, "threads; default: TESSERA_THREADS, or all cores")
+      ->option_text("N")
+      ->transform(integer_from(1, 1024));
+  command->add_flag("--list", request.list,
+                    "list the kinds with their parameters, units, ranges and sources, and the presets");
+  command->add_flag("--json", request.json, "print the list as JSON");
+  command->parse_complete_callback([command, &request] { check_use(*command, request); });
+  return command;
+}
+
+}  // namespace tessera::program::cli
