@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <numbers>
 
+#include "framebuffer/display/stripe_series.h"
 #include "framebuffer/trigonometry.h"
 
 namespace tessera::detail {
@@ -13,9 +14,6 @@ namespace {
 constexpr double kDotDiameter = 0.9;  ///< over the distance of neighbouring dots
 constexpr double kStripeWidth = 0.8;  ///< over a third of the pitch
 constexpr double kSlotLength = 0.85;  ///< over the height of a slot with its bridge
-
-/// Fourier transform of a stripe of width 1 and area 1: sin(pi f) / (pi f).
-double stripe_transform(double f) { return f == 0 ? 1 : sine_cosine(180 * f).sine / (std::numbers::pi * f); }
 
 /// Bessel function J1(x) / x: the mean of cos(x sin t) cos^2 t over a circle. The mean of 64 points is exact
 /// up to terms of order x^62 / 62!, below 1e-15 for x up to 15; larger arguments take more points.
@@ -60,27 +58,26 @@ MaskCell mask_cell(const CrtTube& tube) {
   return {2 * p, tube.slot_height_mm > 0 ? tube.slot_height_mm : kDefaultSlotHeight * p, p / 3, p};
 }
 
-MaskTables mask_tables(const CrtTube& tube, const PixelGrid& columns, const PixelGrid& rows,
-                       double pixel_mm) {
+PatternTables mask_tables(const CrtTube& tube, const PixelGrid& columns, const PixelGrid& rows,
+                          double pixel_mm) {
   const MaskCell cell = mask_cell(tube);
   const double limit = 1 / (2 * pixel_mm);  // half of the sampling rate, per mm
   const int i_end = static_cast<int>(std::ceil(limit * cell.width_mm));
   const int j_end = static_cast<int>(std::ceil(limit * cell.height_mm));
-  MaskTables tables;
+  PatternTables tables;
   for (int j = 0; j < j_end; ++j) {
     const double fy = j / cell.height_mm;
     std::vector<double> amplitudes(static_cast<std::size_t>(i_end), 0.0);  // of cos(2 pi i x / X)
     bool is_empty = true;
     for (int i = j % 2; i < i_end; i += 2) {  // two phosphors per cell cancel terms with i + j odd
       const double fx = i / cell.width_mm;
-      const double weight = (1 - fx / limit) * (1 - fy / limit);
+      const double weight = fejer_weight(fx, limit) * fejer_weight(fy, limit);
       const double twice = (i > 0 ? 2 : 1) * (j > 0 ? 2 : 1);  // frequencies i and -i, j and -j
       const double amplitude = twice * weight * phosphor_transform(tube, fx, fy);
       amplitudes[static_cast<std::size_t>(i)] = amplitude;
       is_empty = is_empty && std::abs(amplitude) < 1e-5;
     }
     if (is_empty) continue;
-    ++tables.terms;
     for (std::size_t color = 0; color < 3; ++color) {
       std::vector<float>& factors = tables.column_factors[color].emplace_back();
       const double shift = (static_cast<double>(color) - 1) * cell.color_shift_mm;

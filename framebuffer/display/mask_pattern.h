@@ -1,9 +1,7 @@
-// Phosphor patterns of colour tubes, drawn without moire.
+// Patterns of the phosphors of colour tubes, drawn without moire.
 #pragma once
 
-#include <array>
-#include <vector>
-
+#include "framebuffer/display/light_pattern.h"
 #include "framebuffer/display/resample_table.h"
 #include "framebuffer/tessera/display.hpp"
 
@@ -23,17 +21,10 @@ struct MaskCell {
 /// @param mask  not none
 MaskCell mask_cell(const CrtTube& tube);
 
-/// Light of the pattern of one colour in pixels, 1 on average: the sum over terms j of
-/// row_factors[j][row] * column_factors[color][j][column].
-struct MaskTables {
-  int terms = 0;
-  std::array<std::vector<std::vector<float>>, 3> column_factors;
-  std::vector<std::vector<float>> row_factors;
-};
-
 /// Draws the pattern of a tube, its centre at (0, 0).
 /// - The Fourier series of the pattern up to half of the sampling rate f = 1 / pixel_mm, with Fejer's weights
 ///   (1 - 2 |fx| / f)(1 - 2 |fy| / f): nothing aliases in pixels of that size, and values are never negative.
-MaskTables mask_tables(const CrtTube& tube, const PixelGrid& columns, const PixelGrid& rows, double pixel_mm);
+PatternTables mask_tables(const CrtTube& tube, const PixelGrid& columns, const PixelGrid& rows,
+                          double pixel_mm);
 
 }  // namespace tessera::detail

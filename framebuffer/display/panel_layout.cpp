@@ -5,6 +5,7 @@
 
 #include "framebuffer/display/display_color.h"
 #include "framebuffer/display/screen_layout.h"
+#include "framebuffer/display/stripe_series.h"
 
 namespace tessera::detail {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr double kMmPerInch = 25.4;
 constexpr double kMinPixelsPerPeriod = 2;  ///< as for tubes
 
-/// What of a panel's pixel emits light.
+/// Parts of a panel's pixel that emit light.
 struct PixelStructure {
   bool has_stripes;  ///< three subpixels, each a third of the width
   bool reversed;     ///< blue is left
@@ -41,15 +42,18 @@ ColorMatrix matrix_of(const Display& display) {
   return srgb_from_display(display.lcd.primaries, display.lcd.white);
 }
 
-/// Light of white at a point between samples.
-double white_at(const SpreadFunction& spread, double spacing_mm, double position_mm) {
-  const int reach = static_cast<int>(spread.reach_mm / spacing_mm) + 2;
-  double sum = 0;
-  for (int k = -reach; k <= reach; ++k) {
-    const double distance = position_mm - k * spacing_mm;
-    if (std::abs(distance) <= spread.reach_mm) sum += spread.light(distance);
+/// Subpixels of the panel: stripes across, and along the part of a row that emits.
+PatternTables subpixels(const PixelStructure& structure, double width_mm, double height_mm,
+                        const PixelGrid& columns, const PixelGrid& rows, double pixel_mm) {
+  PatternTables tables;
+  for (std::size_t color = 0; color < 3; ++color) {
+    const double place = (static_cast<double>(color) - 1) * (structure.reversed ? -1 : 1);
+    const Stripes stripes{width_mm, structure.fill * width_mm / 3, (place / 3 + 0.5) * width_mm};
+    tables.column_factors[color].push_back(stripe_series(stripes, columns, pixel_mm));
   }
-  return sum;
+  const Stripes across{height_mm, structure.fill * height_mm, height_mm / 2};
+  tables.row_factors.push_back(stripe_series(across, rows, pixel_mm));
+  return tables;
 }
 
 }  // namespace
@@ -68,34 +72,27 @@ ScreenLayout panel_layout(const Display& display, const VideoMode& mode, const S
   const double width_mm = layout.picture_width_mm / mode.width;
   const double height_mm = layout.picture_height_mm / mode.height;
   const double pixel_mm = layout.columns.pitch_mm;
-  const bool detail = std::min(width_mm, height_mm) >= kMinPixelsPerPeriod * pixel_mm;
-  const bool stripes = detail && structure.has_stripes;
-  const double fill = detail ? structure.fill : 1;
   const SampleGrid along{mode.width, -layout.picture_width_mm / 2 + width_mm / 2, width_mm};
   const SampleGrid across{mode.height, -layout.picture_height_mm / 2 + height_mm / 2, height_mm};
-  const SpreadFunction vertical = box_spread(0, fill * height_mm, height_mm, pixel_mm, detail);
-  std::vector<SpreadFunction> horizontal;
-  for (std::size_t color = 0; color < layout.colors; ++color) {
-    const double place = (static_cast<double>(color) - 1) * (structure.reversed ? -1 : 1);
-    const double offset = stripes ? place * width_mm / 3 : 0;
-    const double width = fill * (stripes ? width_mm / 3 : width_mm);
-    horizontal.push_back(box_spread(offset, width, width_mm, pixel_mm, detail));
-    layout.planes.push_back({color, make_resample_table(along, layout.columns, horizontal.back()),
-                             make_resample_table(across, layout.rows, vertical)});
-  }
+  for (std::size_t color = 0; color < layout.colors; ++color)
+    layout.planes.push_back({color,
+                             make_resample_table(along, layout.columns, held_spread(width_mm, pixel_mm)),
+                             make_resample_table(across, layout.rows, held_spread(height_mm, pixel_mm))});
 
-  constexpr int kPoints = 64;
-  double brightest = 0;
-  for (int k = 0; k < kPoints; ++k) {
-    std::array<double, 3> light{};
-    for (std::size_t color = 0; color < layout.colors; ++color)
-      light[color] = white_at(horizontal[color], width_mm, k * width_mm / kPoints);
-    brightest = std::max(brightest, brightest_component(layout, light));
+  layout.peak = brightest_component(layout, {1, 1, 1}) / view.gain;
+  const bool is_fine = std::min(width_mm, height_mm) < kMinPixelsPerPeriod * pixel_mm;
+  if (structure.has_stripes && !is_fine) {
+    // The pattern begins at the left and upper edge of the screen.
+    const auto draw = [&](PixelGrid columns, PixelGrid rows) {
+      columns.edge_mm += layout.picture_width_mm / 2;
+      rows.edge_mm += layout.picture_height_mm / 2;
+      return subpixels(structure, width_mm, height_mm, columns, rows, pixel_mm);
+    };
+    layout.peak = set_pattern(draw, width_mm, height_mm, layout) / view.gain;
   }
-  layout.peak = brightest * white_at(vertical, height_mm, 0);
-  if (structure.has_stripes && !detail)
-    layout.notes.push_back("the image has " + number_text(width_mm / pixel_mm) + " x " +
-                           number_text(height_mm / pixel_mm) +
+  if (structure.has_stripes && is_fine)
+    layout.notes.push_back("the image has " + short_number(width_mm / pixel_mm) + " x " +
+                           short_number(height_mm / pixel_mm) +
                            " pixels per pixel of the panel, below 2: it shows the mean of the subpixels");
   return layout;
 }

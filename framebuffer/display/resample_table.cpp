@@ -3,32 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <span>
 
 #include "framebuffer/display/gaussian.h"
 
 namespace tessera::detail {
 namespace {
-
-/// Convolution of boxes of unit area, at x. The sum over all choices of signs of the truncated power
-/// (x +- w_1 / 2 +- w_2 / 2 ...)^(n - 1), n boxes [de Boor, A Practical Guide to Splines].
-double box_convolution(std::span<const double> widths, double x) {
-  double sum = 0, scale = 1;
-  for (std::size_t i = 0; i < widths.size(); ++i)
-    scale /= widths[i] * static_cast<double>(std::max<std::size_t>(i, 1));
-  for (std::size_t signs = 0; signs < std::size_t{1} << widths.size(); ++signs) {
-    double position = x, term = 1;
-    for (std::size_t i = 0; i < widths.size(); ++i) {
-      const bool is_plus = (signs >> i & 1) == 0;
-      position += is_plus ? widths[i] / 2 : -widths[i] / 2;
-      term = is_plus ? term : -term;
-    }
-    if (position <= 0) continue;
-    for (std::size_t i = 1; i < widths.size(); ++i) term *= position;
-    sum += term;
-  }
-  return sum * scale;
-}
 
 /// Samples around a pixel, clamped to the grid.
 int first_sample(const SampleGrid& samples, double center_mm, double reach_mm) {
@@ -77,13 +56,13 @@ SpreadFunction gaussian_spread(double sigma_mm, double spacing_mm, double pixel_
           reach};
 }
 
-SpreadFunction box_spread(double offset_mm, double width_mm, double spacing_mm, double pixel_mm,
-                          bool detail) {
-  const std::vector<double> widths =
-      detail ? std::vector{width_mm, pixel_mm, pixel_mm, pixel_mm} : std::vector{width_mm, pixel_mm};
-  double reach = std::abs(offset_mm);
-  for (const double width : widths) reach += width / 2;
-  return {[=](double d) { return spacing_mm * box_convolution(widths, d - offset_mm); }, reach};
+SpreadFunction held_spread(double spacing_mm, double pixel_mm) {
+  return {[=](double d) {
+            const double from = std::max(d - pixel_mm / 2, -spacing_mm / 2);
+            const double to = std::min(d + pixel_mm / 2, spacing_mm / 2);
+            return std::max(to - from, 0.0) / pixel_mm;
+          },
+          (spacing_mm + pixel_mm) / 2};
 }
 
 }  // namespace tessera::detail

@@ -48,10 +48,7 @@ ResampleTable make_resample_table(const SampleGrid& samples, const PixelGrid& pi
 /// @param sigma_mm  standard deviation, above 0
 SpreadFunction gaussian_spread(double sigma_mm, double spacing_mm, double pixel_mm, double smoothing_mm);
 
-/// A box that emits evenly, seen through pixels.
-/// - With detail, pixels weigh light by the quadratic B-spline (three boxes), which passes less than 2 % of
-///   detail that is finer than the pixels: what a box alone passes would be seen as moire.
-/// @param offset_mm  centre of the box, from that of the sample
-SpreadFunction box_spread(double offset_mm, double width_mm, double spacing_mm, double pixel_mm, bool detail);
+/// Samples that are held: each emits evenly over its spacing. Pixels average.
+SpreadFunction held_spread(double spacing_mm, double pixel_mm);
 
 }  // namespace tessera::detail

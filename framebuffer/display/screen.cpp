@@ -39,7 +39,7 @@ void check_mode(const VideoMode& mode) {
           "the mode has " + std::to_string(mode.width) + "x" + std::to_string(mode.height) +
               " pixels, expected 1x1 to 16384x16384");
   require(mode.pixel_aspect >= 0.1 && mode.pixel_aspect <= 10,
-          "the pixels' aspect is " + number_text(mode.pixel_aspect) + ", expected 0.1 to 10");
+          "the pixels' aspect is " + short_number(mode.pixel_aspect) + ", expected 0.1 to 10");
   if (!mode.timing) return;
   const ScanTiming& timing = *mode.timing;
   require(timing.lines_per_row >= 1 && timing.total_columns >= mode.width &&
@@ -49,7 +49,16 @@ void check_mode(const VideoMode& mode) {
               std::to_string(mode.width) + " and " +
               std::to_string(mode.height * std::max(timing.lines_per_row, 1)));
   require(timing.pixel_clock_hz >= 1e3 && timing.pixel_clock_hz <= 1e12,
-          "the pixel clock is " + number_text(timing.pixel_clock_hz) + " Hz, expected 1e3 to 1e12");
+          "the pixel clock is " + short_number(timing.pixel_clock_hz) + " Hz, expected 1e3 to 1e12");
+}
+
+void check_exposure(const Display& display, const VideoMode& mode) {
+  double exposure_ms = 0;
+  if (is_tube(display)) exposure_ms = display.crt.exposure_ms;
+  if (display.kind == DisplayKind::plasma) exposure_ms = display.plasma.exposure_ms;
+  if (const double frame_ms = frame_scan(mode, {}).frame_ms; exposure_ms > frame_ms)
+    throw DisplayError("the exposure is " + short_number(exposure_ms) + " ms, at most one frame of " +
+                       short_number(frame_ms) + " ms is possible");
 }
 
 InstructionSet chosen(InstructionSet wanted) {
@@ -112,10 +121,10 @@ struct Screen::State {
 void Screen::State::check_time(double time_ms) const {
   constexpr double kMaxMs = 1e12;
   if (!(time_ms >= 0 && time_ms <= kMaxMs))
-    throw DisplayError("the time is " + number_text(time_ms) + " ms, expected 0 to 1e12");
+    throw DisplayError("the time is " + short_number(time_ms) + " ms, expected 0 to 1e12");
   if (last_time_ms && time_ms < *last_time_ms)
-    throw DisplayError("the time is " + number_text(time_ms) + " ms, before that of the last picture, " +
-                       number_text(*last_time_ms) + " ms");
+    throw DisplayError("the time is " + short_number(time_ms) + " ms, before that of the last picture, " +
+                       short_number(*last_time_ms) + " ms");
 }
 
 /// Steps pixels to columns: the light of each row of the mode.
@@ -171,13 +180,13 @@ void Screen::State::draw_rows(const ScreenImage& image, const LineExposure& expo
         target.srgb_from_light[component][color] =
             static_cast<float>(layout.srgb_from_light[component][color] / layout.peak);
     for (std::size_t color = 0; color < 3; ++color)
-      for (const std::vector<float>& factors : layout.mask.column_factors[color])
+      for (const std::vector<float>& factors : layout.pattern.column_factors[color])
         target.column_factors[color].push_back(factors.data());
     const int end = std::min(height, (part + 1) * kRowsPerPart);
     for (int row = part * kRowsPerPart; row < end; ++row) {
       collect_light(row, exposure, target);
       target.row_factors.clear();
-      for (const std::vector<float>& factors : layout.mask.row_factors)
+      for (const std::vector<float>& factors : layout.pattern.row_factors)
         target.row_factors.push_back(factors[static_cast<std::size_t>(row)]);
       target.rgb = image.rgb != nullptr ? image.rgb + row * stride : nullptr;
       target.light_out =
@@ -191,6 +200,7 @@ Screen::Screen(const Display& display, const VideoMode& mode, const ScreenView& 
                InstructionSet instruction_set) {
   check(display);
   check_mode(mode);
+  check_exposure(display, mode);
   state_ = std::make_unique<State>(display, mode, view, workers, instruction_set);
 }
 Screen::~Screen() = default;

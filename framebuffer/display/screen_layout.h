@@ -2,10 +2,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "framebuffer/display/mask_pattern.h"
+#include "framebuffer/display/light_pattern.h"
 #include "framebuffer/display/resample_table.h"
 #include "framebuffer/tessera/display.hpp"
 #include "framebuffer/tessera/rgb_primaries.hpp"
@@ -36,11 +37,11 @@ struct ScreenLayout {
   int lines_per_row = 1;                               ///< scan lines per row of pixels
   std::size_t colors = 3;
   std::vector<PlaneLayout> planes;
-  MaskTables mask;  ///< without terms: no mask
+  PatternTables pattern;  ///< phosphors or subpixels; without terms: none
   ScatterLayout scatter;
   /// Linear sRGB of light 1 of each colour, white with Y = 1: [component][color].
   std::array<std::array<double, 3>, 3> srgb_from_light{};
-  double peak = 1;  ///< largest component of a white picture, in linear sRGB
+  double peak = 1;  ///< largest component of a white picture, in linear sRGB, over the view's gain
   std::vector<std::string> notes;
 };
 
@@ -56,10 +57,17 @@ void place_view(double width_mm, double height_mm, const ScreenView& view, Scree
 void set_colors(const ColorMatrix& srgb_from_display, ScreenLayout& layout);
 void set_one_color(const ColorValues& srgb, ScreenLayout& layout);
 
-/// Largest component of linear sRGB of light that is separable, at its brightest point.
+/// Largest component of light in linear sRGB.
 double brightest_component(const ScreenLayout& layout, const std::array<double, 3>& light);
 
-/// "12.3 columns per triad"
-std::string number_text(double value);
+/// Draws a pattern for the centres of pixels.
+using DrawPattern = std::function<PatternTables(const PixelGrid& columns, const PixelGrid& rows)>;
+
+/// Sets the pattern of the image.
+/// @return the largest component of white light, over one period of the pattern
+double set_pattern(const DrawPattern& draw, double period_x_mm, double period_y_mm, ScreenLayout& layout);
+
+/// A number with up to five digits, for notes and errors.
+std::string short_number(double value);
 
 }  // namespace tessera::detail

@@ -6,8 +6,8 @@
 #include "framebuffer/display/display_color.h"
 #include "framebuffer/display/gaussian.h"
 #include "framebuffer/display/line_times.h"
+#include "framebuffer/display/mask_pattern.h"
 #include "framebuffer/display/screen_layout.h"
-#include "framebuffer/display/screen_rows.h"
 #include "framebuffer/display/tube_source.h"
 
 namespace tessera::detail {
@@ -70,25 +70,6 @@ void add_scatter(const CrtTube& tube, const TubeSamples& samples, int lines, int
       make_resample_table(across, scatter.rows, gaussian_spread(tube.halation_mm, line_mm, pitch, 0));
 }
 
-/// Largest component of the mask's colours, over one cell.
-double mask_peak(const CrtTube& tube, const ScreenLayout& layout) {
-  constexpr int kPoints = 64;
-  const MaskCell cell = mask_cell(tube);
-  const MaskTables tables = mask_tables(tube, {kPoints, 0, cell.width_mm / kPoints},
-                                        {kPoints, 0, cell.height_mm / kPoints}, layout.columns.pitch_mm);
-  double peak = 0;
-  for (std::size_t y = 0; y < kPoints; ++y)
-    for (std::size_t x = 0; x < kPoints; ++x) {
-      std::array<double, 3> light{};
-      for (std::size_t color = 0; color < 3; ++color)
-        for (std::size_t j = 0; j < tables.row_factors.size(); ++j)
-          light[color] += static_cast<double>(tables.row_factors[j][y]) *
-                          static_cast<double>(tables.column_factors[color][j][x]);
-      peak = std::max(peak, brightest_component(layout, light));
-    }
-  return peak;
-}
-
 /// Brightest point of the profile of white lines: with ripple 2 exp(-2 pi^2 sigma^2 / d^2), and averaged over
 /// pixels.
 double line_peak(double sigma_mm, double line_mm, double pixel_mm) {
@@ -105,17 +86,17 @@ void add_notes(const CrtTube& tube, const VideoMode& mode, double line_mm, Scree
   if (tube.mask != ShadowMask::none) {
     const double triad_mm = mask_cell(tube).triad_mm;
     if (const double pixels = triad_mm / layout.columns.pitch_mm; pixels < kMinPixelsPerPeriod)
-      note("the image has " + number_text(pixels) +
+      note("the image has " + short_number(pixels) +
            " columns per triad of the mask, below 2: it shows the mean of the mask; from " +
-           number_text(kMinPixelsPerPeriod / triad_mm) + " pixels per mm on, the mask is visible");
+           short_number(kMinPixelsPerPeriod / triad_mm) + " pixels per mm on, the mask is visible");
     const double triads = layout.screen_width_mm / triad_mm;
     if (mode.width > triads)
       note("the mode has " + std::to_string(mode.width) + " columns, " +
-           number_text(100 * (mode.width / triads - 1)) + " % more than the tube has triads in a row (" +
-           number_text(triads) + ")");
+           short_number(100 * (mode.width / triads - 1)) + " % more than the tube has triads in a row (" +
+           short_number(triads) + ")");
   }
   if (const double pixels = line_mm / layout.rows.pitch_mm; pixels < kMinPixelsPerPeriod)
-    note("the image has " + number_text(pixels) +
+    note("the image has " + short_number(pixels) +
          " rows per scan line, below 2: it shows the mean of the lines");
 }
 
@@ -153,13 +134,14 @@ ScreenLayout tube_layout(const Display& display, const VideoMode& mode, const Sc
   double mask = brightest_component(layout, {1, 1, 1});
   if (tube.mask != ShadowMask::none &&
       mask_cell(tube).triad_mm >= kMinPixelsPerPeriod * layout.columns.pitch_mm) {
-    layout.mask = mask_tables(tube, layout.columns, layout.rows, layout.columns.pitch_mm);
-    for (auto& terms : layout.mask.column_factors)
-      for (std::vector<float>& factors : terms) factors.resize(padded_columns(layout.columns.count));
-    mask = mask_peak(tube, layout);
+    const double pixel_mm = layout.columns.pitch_mm;
+    const auto draw = [&](const PixelGrid& columns, const PixelGrid& rows) {
+      return mask_tables(tube, columns, rows, pixel_mm);
+    };
+    mask = set_pattern(draw, mask_cell(tube).width_mm, mask_cell(tube).height_mm, layout);
   }
   const double even = brightest_component(layout, {1, 1, 1});
-  layout.peak = (1 - tube.halation) * lines_peak * mask + tube.halation * even;
+  layout.peak = ((1 - tube.halation) * lines_peak * mask + tube.halation * even) / view.gain;
   add_notes(tube, mode, line_mm, layout);
   return layout;
 }

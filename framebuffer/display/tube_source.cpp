@@ -19,10 +19,11 @@ bool is_television(const Display& display) {
   return display.kind == DisplayKind::ntsc || display.kind == DisplayKind::pal;
 }
 
-/// Samples of light per sample of the signal: the beam must span 0.6 samples, so that a sum over samples
-/// equals the integral within 0.1 %: exp(-2 pi^2 0.6^2) = 0.0008.
+/// Samples of light per sample of the signal. The beam must span 0.6 samples, so that a sum over samples
+/// equals the integral within 0.1 %: exp(-2 pi^2 0.6^2) = 0.0008. From 4 on, harmonics of pixels that alias
+/// to the finest grating are 2 % of it: the 7th, of which the amplifier passes less than 1/7.
 int subsamples(double sigma_in_signal_samples) {
-  return static_cast<int>(std::clamp(std::ceil(0.6 / sigma_in_signal_samples), 2.0, double{kMaxSubsamples}));
+  return static_cast<int>(std::clamp(std::ceil(0.6 / sigma_in_signal_samples), 4.0, double{kMaxSubsamples}));
 }
 
 /// Time constant 1 / (2 pi B) of the video amplifier, in seconds. Without a given bandwidth, that of a

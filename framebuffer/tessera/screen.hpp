@@ -29,6 +29,9 @@ struct ScreenView {
   double scale_px_per_mm = 0;          ///< above 0; 0: 1440 rows for the part's height
   double x_mm = 0, y_mm = 0;           ///< upper left corner of the part, from that of the screen
   double width_mm = 0, height_mm = 0;  ///< size of the part; 0: up to the lower right corner of the screen
+  /// Exposure: the brightest pixel of a white picture has this value in its largest component, 0.01 to 100.
+  /// Above 1, sRGB images clip it.
+  double gain = 1;
 };
 
 /// A picture, as levels or as bitplanes. Exactly one of `rgb` and `planes` is set.
@@ -64,6 +67,7 @@ struct ScreenWorkers {
   ScreenWorkers() = default;
   /// @param runner  must outlive the object
   template <class Executor>
+    requires requires(Executor& e) { e.workers(); }
   explicit ScreenWorkers(Executor& runner)
       : count(runner.workers()),
         executor(&runner),
@@ -77,8 +81,8 @@ struct ScreenWorkers {
 ///
 /// Steps: pixels -> levels -> signal -> light of the display's primaries -> geometry -> image -> sRGB. All
 /// averages are taken of linear light.
-/// - The brightest pixel of a white picture is 1 in its largest component; white_level() tells how bright
-///   white is on average.
+/// - The brightest pixel of a white picture is ScreenView::gain in its largest component; white_level() tells
+///   how bright white is on average. Structure costs brightness: phosphors emit on a third of the area.
 /// - The same bits on every machine, for every number of workers and every instruction set.
 /// - One call at a time per object.
 class TESSERA_DISPLAY_API Screen {
