@@ -24,20 +24,28 @@ using Strip = float[kStripColumns];
 /// Number of columns to compute: whole vectors.
 int padded(int columns) { return (columns + kFloatLanes - 1) / kFloatLanes * kFloatLanes; }
 
-void add_rows(std::span<const WeightedRow> rows, int left, int columns, Strip& sum) {
-  for (const WeightedRow& row : rows) {
-    const FloatVec weight = splat(row.weight);
-    for (int x = 0; x < columns; x += kFloatLanes)
-      store(mul_add(load(row.light + left + x), weight, load(sum + x)), sum + x);
-  }
+/// The sum of weighted rows in one vector of columns.
+HWY_INLINE FloatVec sum_of(std::span<const WeightedRow> rows, int x) {
+  FloatVec sum = splat(0);
+  for (const WeightedRow& row : rows) sum = mul_add(load(row.light + x), splat(row.weight), sum);
+  return sum;
 }
 
-void multiply_by_mask(const ImageRow& row, std::size_t color, int left, int columns, Strip& light) {
+HWY_INLINE FloatVec mask_at(const ImageRow& row, std::size_t color, int x) {
+  FloatVec mask = splat(0);
+  for (std::size_t j = 0; j < row.row_factors.size(); ++j)
+    mask = mul_add(load(row.column_factors[color][j] + x), splat(row.row_factors[j]), mask);
+  return hn::Max(mask, splat(0));
+}
+
+/// Light of one colour in a strip of columns.
+void collect_light(const ImageRow& row, std::size_t color, int left, int columns, Strip& light) {
+  const bool has_mask = !row.row_factors.empty();
   for (int x = 0; x < columns; x += kFloatLanes) {
-    FloatVec mask = splat(0);
-    for (std::size_t j = 0; j < row.row_factors.size(); ++j)
-      mask = mul_add(load(row.column_factors[color][j] + left + x), splat(row.row_factors[j]), mask);
-    store(hn::Mul(load(light + x), hn::Max(mask, splat(0))), light + x);
+    FloatVec sum = sum_of(row.light[color], left + x);
+    if (has_mask) sum = hn::Mul(sum, mask_at(row, color, left + x));
+    if (!row.scattered[color].empty()) sum = hn::Add(sum, sum_of(row.scattered[color], left + x));
+    store(sum, light + x);
   }
 }
 
@@ -50,30 +58,45 @@ HWY_INLINE IntVec srgb_codes(const SrgbTable& table, FloatVec light) {
   return hn::ConvertTo(kInts, mul_add(slope, inside, offset));
 }
 
-/// Writes light of the display as pixels. Lanes beyond the row are not stored.
+/// Red, green and blue of as many pixels as a vector has lanes.
+using ByteTag = hn::Rebind<std::uint8_t, FloatTag>;
+using ByteVec = hn::Vec<ByteTag>;
+
+void store_pixels(const ByteVec (&codes)[3], int count, std::uint8_t* rgb) {
+  constexpr ByteTag kBytes{};
+  if (count == kFloatLanes) {
+    hn::StoreInterleaved3(codes[0], codes[1], codes[2], kBytes, rgb);
+    return;
+  }
+  alignas(64) std::uint8_t lanes[3 * kFloatLanes];
+  hn::StoreInterleaved3(codes[0], codes[1], codes[2], kBytes, lanes);
+  std::copy_n(lanes, 3 * count, rgb);
+}
+
+void store_light(const FloatVec (&light)[3], int count, float* out) {
+  alignas(64) float lanes[3][kFloatLanes];
+  for (int i = 0; i < 3; ++i) hn::Store(light[i], kFloats, lanes[i]);
+  for (int lane = 0; lane < count; ++lane)
+    for (int i = 0; i < 3; ++i) *out++ = lanes[i][lane];
+}
+
+/// Writes light of the display as pixels.
 void write_pixels(const ImageRow& row, const Strip (&light)[3], int left, int columns) {
   const SrgbTable& table = srgb_table();
-  alignas(64) float components[3][kFloatLanes];
-  alignas(64) std::int32_t codes[3][kFloatLanes];
   for (int x = 0; x < columns; x += kFloatLanes) {
+    const int count = std::min(kFloatLanes, columns - x);
+    FloatVec components[3];
+    ByteVec codes[3];
     for (std::size_t i = 0; i < 3; ++i) {
       FloatVec sum = hn::Mul(load(light[0] + x), splat(row.srgb_from_light[i][0]));
       for (std::size_t color = 1; color < static_cast<std::size_t>(row.colors); ++color)
         sum = mul_add(load(light[color] + x), splat(row.srgb_from_light[i][color]), sum);
-      hn::Store(sum, kFloats, components[i]);
-      hn::Store(srgb_codes(table, sum), kInts, codes[i]);
+      components[i] = sum;
+      codes[i] = hn::DemoteTo(ByteTag(), srgb_codes(table, sum));
     }
-    const int count = std::min(kFloatLanes, columns - x);
-    if (row.light_out != nullptr) {
-      float* out = row.light_out + 3 * static_cast<std::ptrdiff_t>(left + x);
-      for (int lane = 0; lane < count; ++lane)
-        for (std::size_t i = 0; i < 3; ++i) *out++ = components[i][lane];
-    }
-    if (row.rgb != nullptr) {
-      std::uint8_t* out = row.rgb + 3 * static_cast<std::ptrdiff_t>(left + x);
-      for (int lane = 0; lane < count; ++lane)
-        for (std::size_t i = 0; i < 3; ++i) *out++ = static_cast<std::uint8_t>(codes[i][lane]);
-    }
+    const std::ptrdiff_t offset = 3 * static_cast<std::ptrdiff_t>(left + x);
+    if (row.light_out != nullptr) store_light(components, count, row.light_out + offset);
+    if (row.rgb != nullptr) store_pixels(codes, count, row.rgb + offset);
   }
 }
 
@@ -82,12 +105,8 @@ void image_row(const ImageRow& row) {
   for (int left = 0; left < row.columns; left += kStripColumns) {
     const int columns = std::min(kStripColumns, row.columns - left);
     const int lanes = padded(columns);
-    for (std::size_t color = 0; color < static_cast<std::size_t>(row.colors); ++color) {
-      std::fill_n(light[color], lanes, 0.0f);
-      add_rows(row.light[color], left, lanes, light[color]);
-      if (!row.row_factors.empty()) multiply_by_mask(row, color, left, lanes, light[color]);
-      add_rows(row.scattered[color], left, lanes, light[color]);
-    }
+    for (std::size_t color = 0; color < static_cast<std::size_t>(row.colors); ++color)
+      collect_light(row, color, left, lanes, light[color]);
     write_pixels(row, light, left, columns);
   }
 }

@@ -83,6 +83,10 @@ void read_rgb(const VideoPicture& picture, int width, int height, std::vector<st
   require_bytes("the picture", picture.rgb.size(), stride, row_bytes, height);
   for (int y = 0; y < height; ++y) {
     const std::uint8_t* pixel = picture.rgb.data() + size_of(y) * static_cast<std::size_t>(stride);
+    if (picture.pixel_bytes == 3) {
+      levels.insert(levels.end(), pixel, pixel + row_bytes);
+      continue;
+    }
     for (int x = 0; x < width; ++x, pixel += picture.pixel_bytes)
       levels.insert(levels.end(), pixel, pixel + 3);
   }

@@ -167,7 +167,9 @@ void Screen::State::collect_light(int row, const LineExposure& exposure, ImageRo
 
 /// Steps columns to image.
 void Screen::State::draw_rows(const ScreenImage& image, const LineExposure& exposure) {
-  parallel_parts(workers, scattered.rows(), [&](int row) { scattered.compute(row, layout, rows, exposure); });
+  parallel_parts(workers, scattered.grid_rows(),
+                 [&](int row) { scattered.collect(row, layout, rows, exposure); });
+  parallel_parts(workers, scattered.grid_rows(), [&](int row) { scattered.spread(row, layout); });
   constexpr int kRowsPerPart = 16;
   const int height = layout.rows.count;
   ImageRowFn* const draw = image_row_for(isa);

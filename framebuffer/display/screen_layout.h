@@ -21,12 +21,13 @@ struct PlaneLayout {
   ResampleTable vertical;    ///< scan lines -> rows of the image
 };
 
-/// Light that the glass of a tube scatters, on a grid that is coarser than the image. It is interpolated
-/// linearly between grid points.
+/// Light that the glass of a tube scatters, on a grid that is coarser than the image: the mean light of
+/// cells, blurred, then interpolated linearly between the centres of cells.
 struct ScatterLayout {
   double share = 0;             ///< of all light; 0: no scattering, and the rest is empty
-  PixelGrid columns{}, rows{};  ///< grid; its points are the centres of these pixels
+  PixelGrid columns{}, rows{};  ///< cells; they reach beyond the image as far as the blur
   ResampleTable horizontal, vertical;
+  std::vector<float> blur;  ///< weights of neighbours, the cell itself in the middle; their sum is 1
 };
 
 struct ScreenLayout {

@@ -9,6 +9,7 @@
 #include "framebuffer/display/mask_pattern.h"
 #include "framebuffer/display/screen_layout.h"
 #include "framebuffer/display/tube_source.h"
+#include "framebuffer/exact_functions.h"
 
 namespace tessera::detail {
 namespace {
@@ -17,8 +18,7 @@ constexpr double kMmPerInch = 25.4;
 /// Structures with fewer pixels per period are drawn as their mean: at 2 they reach half of the sampling
 /// rate.
 constexpr double kMinPixelsPerPeriod = 2;
-/// A linear interpolation of a Gaussian whose grid has 2.5 points per standard deviation is off by 2 %.
-constexpr double kGridPointsPerSigma = 2.5;
+constexpr double kCellsPerSigma = 2.5;  ///< of the grid of scattered light
 
 /// The raster: a picture of the mode's shape within the 4:3 screen, enlarged by the overscan.
 void place_raster(const CrtTube& tube, const VideoMode& mode, ScreenLayout& layout) {
@@ -47,27 +47,43 @@ PlaneLayout beam_plane(std::size_t color, double displacement_mm, double sigma_m
           make_resample_table(across, layout.rows, gaussian_spread(sigma_mm, line_mm, pixel_mm, smoothing))};
 }
 
-PixelGrid coarse_grid(const PixelGrid& fine, double pitch_mm) {
+/// Cells that cover an axis of the image and `margin` more cells at each end.
+PixelGrid coarse_grid(const PixelGrid& fine, double pitch_mm, int margin) {
   const double length = fine.count * fine.pitch_mm;
-  const int cells = static_cast<int>(std::ceil(length / pitch_mm)) + 1;
-  return {cells, fine.edge_mm - pitch_mm / 2, pitch_mm};
+  const int cells = static_cast<int>(std::ceil(length / pitch_mm));
+  return {cells + 2 * margin, fine.edge_mm - margin * pitch_mm, pitch_mm};
+}
+
+/// Weights of a Gaussian at the distances of cells. The sum of neighbours has the variance sigma^2, once
+/// cells have added theirs: 1/12 of the squared pitch by their means, 1/6 by linear interpolation.
+std::vector<float> cell_blur(double sigma_mm, double pitch_mm, int reach) {
+  const double variance = sigma_mm * sigma_mm / (pitch_mm * pitch_mm) - 0.25;
+  std::vector<double> weights;
+  double sum = 0;
+  for (int k = -reach; k <= reach; ++k) {
+    weights.push_back(exponential(-k * k / (2 * variance)));
+    sum += weights.back();
+  }
+  std::vector<float> blur;
+  for (const double weight : weights) blur.push_back(static_cast<float>(weight / sum));
+  return blur;
 }
 
 void add_scatter(const CrtTube& tube, const TubeSamples& samples, int lines, int width,
                  ScreenLayout& layout) {
   ScatterLayout& scatter = layout.scatter;
   scatter.share = tube.halation;
-  const double pitch = std::max(tube.halation_mm / kGridPointsPerSigma, layout.columns.pitch_mm);
-  scatter.columns = coarse_grid(layout.columns, pitch);
-  scatter.rows = coarse_grid(layout.rows, pitch);
+  const double pitch = tube.halation_mm / kCellsPerSigma;
+  const int reach = static_cast<int>(4 * kCellsPerSigma);
+  scatter.columns = coarse_grid(layout.columns, pitch, reach + 1);
+  scatter.rows = coarse_grid(layout.rows, pitch, reach + 1);
+  scatter.blur = cell_blur(tube.halation_mm, pitch, reach);
   const double spacing = layout.picture_width_mm / width / samples.per_pixel;
   const SampleGrid along{samples.count, -layout.picture_width_mm / 2 + spacing / 2, spacing};
   const double line_mm = layout.picture_height_mm / lines;
   const SampleGrid across{lines, -layout.picture_height_mm / 2 + line_mm / 2, line_mm};
-  scatter.horizontal =
-      make_resample_table(along, scatter.columns, gaussian_spread(tube.halation_mm, spacing, pitch, 0));
-  scatter.vertical =
-      make_resample_table(across, scatter.rows, gaussian_spread(tube.halation_mm, line_mm, pitch, 0));
+  scatter.horizontal = make_resample_table(along, scatter.columns, held_spread(spacing, pitch));
+  scatter.vertical = make_resample_table(across, scatter.rows, held_spread(line_mm, pitch));
 }
 
 /// Brightest point of the profile of white lines: with ripple 2 exp(-2 pi^2 sigma^2 / d^2), and averaged over

@@ -175,6 +175,11 @@ TEST(MaskSpectrum, GrillesHaveOnePeakAndItsMultiples) {
       ASSERT_EQ(peaks.size(), 1u);
       EXPECT_NEAR(peaks[0].x * scale * kPitch, 1, 0.01);
       EXPECT_NEAR(peaks[0].y, 0, 0.001);
+      // Stripes fill 0.8 of a third of the pitch; the band limit weighs frequencies down to 0 at half the
+      // rate.
+      const double pixels = scale * kPitch, stripe = std::numbers::pi * 0.8 / 3;
+      const double amplitude = 2 * std::sin(stripe) / stripe * (1 - 2 / pixels);
+      EXPECT_NEAR(s.at(static_cast<int>(std::lround(kSize / pixels)), 0) / amplitude, 0.92, 0.09);
       EXPECT_LT(largest_other(s, {1 / kPitch / scale, 0}, {0, 1}), 0.02);
     }
   });

@@ -155,6 +155,19 @@ TEST(ScreenLight, BrightestPixelOfWhiteIsTheGain) {
     }
 }
 
+TEST(ScreenLight, WhiteLevelIsTheMeanOfWhite) {
+  for (const char* display :
+       {"crt:primaries=bt709,diagonal=3", "crt:primaries=bt709,diagonal=3,mask=slots,halation=0.2",
+        "lcd:diagonal=3", "plasma:diagonal=3", "eink:diagonal=3"}) {
+    Screen screen(
+        find_display(display), kMode,
+        {.scale_px_per_mm = 12, .x_mm = 20, .y_mm = 15, .width_mm = 24, .height_mm = 18, .gain = 0.7});
+    const LightImage image = show(screen, gray_field(160, 120, 255), 0);
+    for (std::size_t color = 0; color < 3; ++color)
+      EXPECT_NEAR(image.mean(color), screen.white_level(), 0.01 * screen.white_level()) << display;
+  }
+}
+
 TEST(ScreenLight, CodesAreThoseOfTheLight) {
   const auto srgb = [](double light) {
     const double l = std::min(std::max(light, 0.0), 1.0);

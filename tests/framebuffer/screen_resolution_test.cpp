@@ -82,6 +82,33 @@ TEST(ScreenResolution, GratingsLoseTheProductOfBeamPoleAndAperture) {
       }
 }
 
+TEST(ScreenResolution, BandwidthIsHalfThePixelClockIfNotGiven) {
+  const auto stripes = picture(320, 240, [](int x, int) {
+    const auto level = static_cast<std::uint8_t>(x % 3 == 0 ? 255 : 0);
+    return Level{level, level, level};
+  });
+  const ScreenView view{.scale_px_per_mm = 4, .x_mm = 60, .y_mm = 60, .width_mm = 40, .height_mm = 10};
+  EXPECT_EQ(show_once("crt:diagonal=12", kMode, view, stripes).light,
+            show_once("crt:diagonal=12,bandwidth=3", kMode, view, stripes).light);
+}
+
+TEST(ScreenResolution, SubpixelsHaveTheContrastOfTheirFill) {
+  // First harmonic of stripes that fill a share of a third of the pixel, with the weight of the band limit.
+  constexpr double kPixels = 12, kFill = 0.6;
+  const LightImage image = show_once("lcd:diagonal=12,black=0,fill=0.6", kMode,
+                                     {.scale_px_per_mm = kPixels / kPixelMm,
+                                      .x_mm = 20 * kPixelMm,
+                                      .y_mm = 60,
+                                      .width_mm = 10 * kPixelMm,
+                                      .height_mm = 2},
+                                     gray_field(320, 240, 255));
+  for (std::size_t color = 0; color < 3; ++color) {
+    std::vector<double> row;
+    for (int x = 0; x < image.width; ++x) row.push_back(image.at(x, 5, color));
+    EXPECT_NEAR(modulation(row, 10), 2 * aperture(kFill / 3) * (1 - 2 / kPixels), 1e-3) << color;
+  }
+}
+
 TEST(ScreenResolution, LinesRippleByFormula) {
   constexpr double kLineMm = kPixelMm;                     // 240 lines on 3/4 of the width
   for (const double sigma : {0.2, 0.25, 0.3, 0.4, 0.5}) {  // of the distance of lines
