@@ -143,22 +143,31 @@ enum class VideoCable : std::uint8_t {
 /// How a receiver separates luma and chroma, and demodulates.
 enum class VideoDecoder : std::uint8_t {
   automatic,  ///< ntsc: notch, pal: delay_line
-  notch,      ///< a filter takes the chroma band from the luma
-  comb,       ///< sums and differences of neighbouring lines (NTSC: one line apart, PAL: two)
-  simple,     ///< PAL without delay line: notch, and the eye averages the lines
-  delay_line  ///< PAL: notch, and chroma averaged over two lines
+  notch,      ///< a filter takes the chroma band from the luma; on PAL as `simple`
+  /// Half the difference of neighbouring lines (NTSC: one line apart, PAL: two) is chroma. Signals whose
+  /// subcarrier does not turn by half a cycle over this distance, such as CGA's, are decoded as by `notch`.
+  comb,
+  simple,  ///< PAL without delay line: notch; a phase error turns the hues of lines to either side in turns
+  delay_line  ///< PAL: notch, and chroma averaged with the line before, so that a phase error costs
+              ///< saturation
 };
 
 /// Composite signal and receiver of ntsc and pal.
+/// - A mode whose line rate is within 3 % of the system's is sent with its own timing: CGA has 228 cycles of
+///   the subcarrier per line. Rows of other modes are the lines of an interlaced frame of 525 or 625 lines.
+///   Each frame of the mode is one frame of the signal.
 struct Television {
   VideoCable cable = VideoCable::composite;
   VideoDecoder decoder = VideoDecoder::automatic;
-  double luma_mhz = 0;      ///< bandwidth of luma, 1 to 8; 0: 4.2 for NTSC, 5.0 for PAL
-  double chroma_mhz = 0;    ///< bandwidth of each colour difference at the encoder, 0.1 to 3; 0: 1.3
-  double receiver_mhz = 0;  ///< bandwidth of the receiver's chroma, 0.1 to 3; 0: 0.5 for NTSC, 1.0 for PAL
-  double phase_deg = 0;     ///< error of the subcarrier's phase between burst and chroma, -180 to 180
-  double gain = 1;          ///< chroma relative to luma between encoder and receiver, 0 to 4
-  double setup_ire = -1;    ///< NTSC: level of black, 0 to 10; -1: 7.5
+  double luma_mhz = 0;  ///< bandwidth of luma (-6 dB), 1 to 8; 0: 4.2 for NTSC, 5.0 for PAL
+  /// Bandwidth of each colour difference at the encoder (-3 dB), 0.1 to 3; 0: 1.3
+  double chroma_mhz = 0;
+  /// Bandwidth of each colour difference in the receiver (-3 dB), 0.1 to 3; 0: 0.5 for NTSC, 1.0 for PAL. The
+  /// notch takes as much from the luma on either side of the subcarrier.
+  double receiver_mhz = 0;
+  double phase_deg = 0;   ///< error of the subcarrier's phase between burst and chroma, -180 to 180
+  double gain = 1;        ///< chroma relative to luma between encoder and receiver, 0 to 4
+  double setup_ire = -1;  ///< NTSC: level of black, 0 to 10; -1: 7.5. The receiver is adjusted to it.
 };
 
 /// A display. Only the members of its kind are used; ntsc and pal use `crt` and `television`.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "display.hpp"
@@ -67,7 +68,7 @@ struct ScreenWorkers {
   ScreenWorkers() = default;
   /// @param runner  must outlive the object
   template <class Executor>
-    requires requires(Executor& e) { e.workers(); }
+  requires requires(Executor& e) { e.workers(); }
   explicit ScreenWorkers(Executor& runner)
       : count(runner.workers()),
         executor(&runner),
@@ -123,5 +124,28 @@ class TESSERA_DISPLAY_API Screen {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// A frame as the signal of ntsc or pal: all lines in the order of time, with sync, burst and blanking.
+/// - A line begins with its sync. On S-Video, one wire has luma and sync, the other chroma and burst.
+/// - Lines begin at their own times: PAL's have 1135.0064 samples, of which the last fraction is left out.
+/// - Television's phase_deg and gain are applied to the signal; receivers' filters are not.
+struct VideoSignal {
+  int samples_per_line = 0;
+  int lines = 0;
+  double sample_rate_hz = 0;   ///< four times the subcarrier
+  std::string_view unit;       ///< "IRE" or "mV"; blanking is 0
+  std::vector<float> samples;  ///< line after line; S-Video: luma
+  std::vector<float> chroma;   ///< S-Video: as many samples of chroma; composite: empty
+  int first_sample = 0;        ///< sample of a line at the left edge of the picture
+  double samples_per_pixel = 0;
+  std::vector<int> row_lines;  ///< for each row of pixels, the first line that shows it, from 0
+};
+
+/// The signal that brings a picture to a television.
+/// @param time_ms  selects the frame, by which the subcarrier's phase changes; from 0, when frame 0 begins
+/// @throws DisplayError  for displays other than ntsc and pal, values out of range, and pictures that do not
+///                       have the mode's size
+TESSERA_DISPLAY_API VideoSignal video_signal(const Display& display, const VideoMode& mode,
+                                             const VideoPicture& picture, double time_ms = 0);
 
 }  // namespace tessera
