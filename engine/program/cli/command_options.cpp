@@ -160,7 +160,7 @@ void add_dump(CLI::App& command, RenderRequest& request) {
 void add_display_of(CLI::App& command, DisplayRequest& request) {
   add_display_view(command, request);
   CLI::Option* const display = command.get_option("--display");
-  for (const char* const option : {"--scale", "--part", "--frame-ms"})
+  for (const char* const option : {"--scale", "--part", "--gain", "--frame-ms"})
     command.get_option(option)->needs(display);
 }
 

@@ -22,7 +22,7 @@ CLI::App* add_color(CLI::App& program, ColorRequest& request);
 CLI::App* add_display(CLI::App& program, DisplayCommandRequest& request);
 CLI::App* add_selftest(CLI::App& program, SelftestRequest& request);
 
-/// Adds --display, --scale, --part and --frame-ms to a command.
+/// Adds --display, --scale, --part, --gain and --frame-ms to a command.
 void add_display_view(CLI::App& command, DisplayRequest& request);
 
 }  // namespace tessera::program::cli

@@ -4,9 +4,12 @@
 
 #include "engine/program/cli/display_list.h"
 #include "engine/program/cli/file_guard.h"
+#include "engine/program/cli/formatted.h"
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/progress.h"
 #include "engine/program/cli/shown_pictures.h"
+#include "engine/program/imageio/atomic_file.h"
+#include "engine/program/imageio/float_picture.h"
 
 namespace tessera::program::cli {
 namespace {
@@ -15,18 +18,40 @@ std::string size_text(int width, int height) { return std::to_string(width) + "x
 
 int frame_count(const DisplayCommandRequest& request) { return static_cast<int>(request.pictures.size()); }
 
-/// Refuses wrong outputs before anything is read.
-void check_output(const DisplayCommandRequest& request) {
-  const std::string& path = request.output.path;
-  if (is_stream(path)) return;
+/// Refuses a file that would overwrite itself or a picture.
+void check_file(const std::string& path, const std::string& option, const DisplayCommandRequest& request) {
   const int frames = frame_count(request);
   if (frames > 1 && path.find("{frame}") == std::string::npos)
     throw Error(std::to_string(frames) + " pictures would overwrite \"" + path +
                 "\" with every frame; put {frame} into the name");
   for (int f = 0; f < frames; ++f)
     for (const std::string& picture : request.pictures)
-      refuse_overwriting(frame_path(path, f, frames), picture, "input", "-o");
+      refuse_overwriting(frame_path(path, f, frames), picture, "input", option);
   require_writable_picture(frame_path(path, 0, frames));
+}
+
+/// Refuses wrong outputs before anything is read.
+void check_outputs(const DisplayCommandRequest& request) {
+  if (!is_stream(request.output.path)) check_file(request.output.path, "-o", request);
+  if (!request.signal.empty()) check_file(request.signal, "--signal", request);
+  if (request.signal == request.output.path)
+    throw Error("the image and --signal are both \"" + request.signal + "\"");
+}
+
+/// Writes the lines of the frame that begins with a picture; with S-Video those of luma, then of chroma.
+void write_signal(const VideoSignal& signal, const std::string& path) {
+  std::vector<float> samples = signal.samples;
+  samples.insert(samples.end(), signal.chroma.begin(), signal.chroma.end());
+  const int rows = static_cast<int>(samples.size()) / signal.samples_per_line;
+  write_file_atomically(path, encode_pfm(signal.samples_per_line, rows, 1, samples));
+}
+
+void print_signal_note(const VideoSignal& signal) {
+  std::cerr << "tessera: note: the signal has " << signal.lines << " lines of " << signal.samples_per_line
+            << " samples in " << signal.unit << ", " << formatted("%.9g", signal.sample_rate_hz / 1e6)
+            << " MHz; pixels begin at sample " << signal.first_sample << " and take "
+            << formatted("%.6g", signal.samples_per_pixel) << " samples; the first row is line "
+            << signal.row_lines.front() << "\n";
 }
 
 /// @param expected  what the size belongs to: "display mode \"cga\""
@@ -38,7 +63,7 @@ void require_size(const Picture& picture, const std::string& name, const VideoMo
 }
 
 void show_pictures(const DisplayCommandRequest& request) {
-  check_output(request);
+  check_outputs(request);
   const Interrupt interrupt;
   const int frames = frame_count(request);
   Picture picture = read_picture(request.pictures.front());
@@ -55,6 +80,12 @@ void show_pictures(const DisplayCommandRequest& request) {
       const std::string& name = request.pictures[static_cast<std::size_t>(f)];
       picture = read_picture(name);
       require_size(picture, name, mode, sized);
+    }
+    if (!request.signal.empty()) {
+      const VideoSignal signal = video_signal(*request.display.display, mode,
+                                              {.rgb = picture.rgba, .pixel_bytes = 4}, shown.next_ms());
+      write_signal(signal, frame_path(request.signal, f, frames));
+      if (f == 0) print_signal_note(signal);
     }
     shown.show(picture);
     shown.write(frame_path(request.output.path, f, frames), request.output.compression);

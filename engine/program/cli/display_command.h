@@ -14,6 +14,7 @@ namespace tessera::program::cli {
 struct DisplayCommandRequest {
   std::vector<std::string> pictures;  ///< files; several are frames in order
   OutputRequest output;
+  std::string signal;  ///< file for the signal of ntsc or pal; empty: not written
   DisplayRequest display;
   std::optional<DisplayMode> mode;  ///< absent: that of the pictures' size, with square pixels
   int threads = 0;                  ///< 0: all cores

@@ -4,6 +4,7 @@
 #include "engine/program/cli/command_options.h"
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/validators.h"
+#include "engine/program/scene/file_extension.h"
 #include "engine/program/scene/scene_mode.h"
 
 namespace tessera::program::cli {
@@ -14,7 +15,7 @@ constexpr const char* kDisplayExamples = R"(Examples:
   tessera display cga.png --mode cga --display cga -o tube.png     on the monitor of a CGA
   tessera display a.png --display crt:pitch=0.31,mask=slots --part 100,80,12,9 --scale 100 -o near.png
   tessera display f*.png --display lcd-laptop -o 'lcd_{frame}.png' frames in order
-  tessera display p.png --mode cga-hi --display cga-composite -o artifacts.png
+  tessera display p.png --mode cga-hi --display cga-composite -o artifacts.png --signal lines.pfm
   tessera display --list                          kinds, parameters and presets)";
 
 void add_display_name(CLI::App& command, DisplayRequest& request) {
@@ -50,6 +51,13 @@ void add_view(CLI::App& command, DisplayRequest& request) {
           },
           "part of the screen in millimetres from its upper left corner; default: all of it")
       ->option_text("X,Y,W,H");
+  command
+      .add_option(
+          "--gain", request.view.gain,
+          "brightest pixel of a white picture in the image, 0.01 to 100; above 1, bright structure is "
+          "clipped; default: 1")
+      ->option_text("G")
+      ->check(number_from(.01, 100));
   command
       .add_option("--frame-ms", request.frame_ms,
                   "milliseconds from each picture to the next; default: one frame of the mode")
@@ -91,6 +99,25 @@ void add_pictures(CLI::App& command, DisplayCommandRequest& request) {
       ->option_text("NAME");
 }
 
+void add_signal(CLI::App& command, DisplayCommandRequest& request) {
+  command
+      .add_option("--signal", request.signal,
+                  "file for the lines of the signal of ntsc or pal, with sync and burst, in IRE or mV; .pfm")
+      ->option_text("FILE.pfm")
+      ->check(not_empty("FILE's name"));
+}
+
+/// Refuses a signal that the display or the file does not have.
+void check_signal(const DisplayCommandRequest& request) {
+  const DisplayKind kind = request.display.display->kind;
+  if (request.signal.empty()) return;
+  if (kind != DisplayKind::ntsc && kind != DisplayKind::pal)
+    throw CLI::ValidationError("--signal", "the display has no signal, expected one of kind ntsc or pal");
+  if (lower_case_extension(request.signal) != ".pfm")
+    throw CLI::ValidationError(
+        "--signal", "found " + cli::quoted(request.signal) + ", expected a name that ends in .pfm");
+}
+
 /// Refuses missing operands.
 void check_use(const CLI::App& command, const DisplayCommandRequest& request) {
   if (command.remaining_size() > 0 || request.list) return;  // remaining words are reported as unexpected
@@ -101,6 +128,7 @@ void check_use(const CLI::App& command, const DisplayCommandRequest& request) {
     throw CLI::ValidationError("--display",
                                "found none, expected a kind or a preset; tessera display --list has all");
   if (request.output.path.empty()) throw CLI::ValidationError("-o", "found none, expected a file");
+  check_signal(request);
 }
 
 }  // namespace
@@ -122,6 +150,7 @@ CLI::App* add_display(CLI::App& program, DisplayCommandRequest& request) {
                    "time of the first picture in milliseconds, at least 0; default: 0")
       ->option_text("MS")
       ->check(number_from(0, 1e9));
+  add_signal(*command, request);
   command->add_option("--threads", request.threads, "threads; default: TESSERA_THREADS, or all cores")
       ->option_text("N")
       ->transform(integer_from(1, 1024));

@@ -10,7 +10,7 @@ namespace tessera::program::cli {
 
 struct DisplayRequest {
   std::optional<Display> display;  ///< absent: pictures are written as they are
-  ScreenView view;                 ///< the part of the screen and the scale
+  ScreenView view;                 ///< part of the screen, scale and gain
   double start_ms = 0;             ///< time of the first picture
   double frame_ms = 0;             ///< time from each picture to the next; 0: one frame of the mode
 };

@@ -387,7 +387,7 @@ TEST_F(Program, PrintsMachineFormatsManualAndCompletions) {
   EXPECT_TRUE(man.out.starts_with(".TH TESSERA 1")) << man.out.substr(0, 80);
   EXPECT_TRUE(contains(man.out, "\\-\\-palette"));
   for (const char* command :
-       {"render", "explain", "modes", "info", "selftest", "formats", "completion", "man"})
+       {"render", "explain", "modes", "display", "info", "selftest", "formats", "completion", "man"})
     EXPECT_TRUE(contains(man.out, std::string(".SS tessera ") + command + "\n") ||
                 contains(man.out, std::string(".SS tessera ") + command + " "))
         << command;
