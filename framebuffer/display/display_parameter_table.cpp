@@ -172,11 +172,11 @@ constexpr Parameter kSignal[] = {
     {"cable", "", kCables, kOfSignal<&Television::cable>,
      "composite: luma and chroma share a wire; svideo: two wires, no crosstalk", kChoice},
     {"luma", "MHz", automatic_or(1, 8), kOfSignal<&Television::luma_mhz>,
-     "bandwidth of luma; auto: 4.2 for NTSC, 5.0 for PAL", "SMPTE 170M; ITU-R BT.470"},
+     "bandwidth of luma (-6 dB); auto: 4.2 for NTSC, 5.0 for PAL", "SMPTE 170M; ITU-R BT.470"},
     {"chroma", "MHz", automatic_or(.1, 3), kOfSignal<&Television::chroma_mhz>,
-     "bandwidth of each colour difference at the encoder; auto: 1.3", "SMPTE 170M; ITU-R BT.470"},
+     "bandwidth of each colour difference at the encoder (-3 dB); auto: 1.3", "SMPTE 170M; ITU-R BT.470"},
     {"receiver", "MHz", automatic_or(.1, 3), kOfSignal<&Television::receiver_mhz>,
-     "bandwidth of the receiver's chroma; auto: 0.5 for NTSC, 1.0 for PAL",
+     "bandwidth of each colour difference in the receiver (-3 dB); auto: 0.5 for NTSC, 1.0 for PAL",
      "NTSC: usual in sets; PAL: choice"},
     {"phase", "degrees", from(-180, 180), kOfSignal<&Television::phase_deg>,
      "error of the subcarrier's phase between burst and chroma", kChoice},
@@ -192,8 +192,8 @@ constexpr Parameter kNtsc[] = {
 
 constexpr Parameter kPal[] = {
     decoder_of(kPalDecoders,
-               "separation of luma and chroma: notch filter, comb of lines two apart, simple (notch, without "
-               "delay line), or delay_line (auto: notch, and chroma averaged over two lines)"),
+               "separation of luma and chroma: notch filter, comb of lines two apart, simple (as notch), or "
+               "delay_line (auto: notch, and chroma averaged over two lines)"),
 };
 
 }  // namespace
