@@ -19,7 +19,7 @@ struct WeightedRow {
 /// One row of the image.
 struct ImageRow {
   int columns;
-  int colors;                                     ///< of the display: 3, or 1 for monochrome ones
+  int colors;                                     ///< primaries of the display: 3, or 1 for monochrome ones
   std::array<std::vector<WeightedRow>, 3> light;  ///< per colour: rows that reach this one
   /// Mask: the sum of row_factors[j] * column_factors[color][j][column]. No terms: no mask.
   std::vector<float> row_factors;

@@ -37,8 +37,8 @@ bool outlasts_frame(Phosphor phosphor);
 
 /// Shares of light that an exposure collects of a line, if each excitation emits light 1 in all.
 struct CollectedShares {
-  double present;  ///< of the excitations by the present frame and the next, which shows the same picture
-  double earlier;  ///< of what was left after the excitation by the frame before
+  double present;  ///< share of the excitations by this frame and by the next, which shows the same picture
+  double earlier;  ///< share of the light that was left after the excitation by the frame before
 };
 
 /// @param from_ms, to_ms  the exposure, from the beginning of the present frame

@@ -67,7 +67,7 @@ PatternTables mask_tables(const CrtTube& tube, const PixelGrid& columns, const P
   PatternTables tables;
   for (int j = 0; j < j_end; ++j) {
     const double fy = j / cell.height_mm;
-    std::vector<double> amplitudes(static_cast<std::size_t>(i_end), 0.0);  // of cos(2 pi i x / X)
+    std::vector<double> amplitudes(static_cast<std::size_t>(i_end), 0.0);  // factors of cos(2 pi i x / X)
     bool is_empty = true;
     for (int i = j % 2; i < i_end; i += 2) {  // two phosphors per cell cancel terms with i + j odd
       const double fx = i / cell.width_mm;

@@ -96,7 +96,7 @@ class LcdSource : public PanelSource {
 
   bool is_dithered_;
   double frame_ms_, time_constant_ms_ = 0;
-  std::vector<std::vector<float>> light_;  ///< of levels, per phase
+  std::vector<std::vector<float>> light_;  ///< per phase: light of the levels
   std::vector<float> state_, target_;      ///< light at the last call, and that of its picture
 };
 
@@ -181,7 +181,7 @@ const SubfieldSum& nearest_sum(const std::vector<SubfieldSum>& sums, double ligh
 /// same time to be addressed, half of the frame in all, and then emits for a time in proportion to its
 /// weight.
 std::vector<double> collected(const std::vector<double>& weights, double total, double from, double to) {
-  constexpr double kAddressing = 0.5;  // of the frame; a default without a source
+  constexpr double kAddressing = 0.5;  // share of the frame; a default without a source
   std::vector<double> shares;
   double time = 0;
   for (const double weight : weights) {

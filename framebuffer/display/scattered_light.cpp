@@ -8,7 +8,7 @@ namespace {
 /// Place of a position between the points of a grid.
 struct GridPlace {
   std::size_t point;  ///< the point before it
-  double fraction;    ///< of the way to the next point
+  double fraction;    ///< share of the way to the next point
 };
 GridPlace place_in(const PixelGrid& grid, double position_mm) {
   const double place = (position_mm - grid.center_mm(0)) / grid.pitch_mm;

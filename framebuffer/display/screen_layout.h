@@ -24,7 +24,7 @@ struct PlaneLayout {
 /// Light that the glass of a tube scatters, on a grid that is coarser than the image: the mean light of
 /// cells, blurred, then interpolated linearly between the centres of cells.
 struct ScatterLayout {
-  double share = 0;             ///< of all light; 0: no scattering, and the rest is empty
+  double share = 0;             ///< scattered share of the light; 0: no scattering, and the rest is empty
   PixelGrid columns{}, rows{};  ///< cells; they reach beyond the image as far as the blur
   ResampleTable horizontal, vertical;
   std::vector<float> blur;  ///< weights of neighbours, the cell itself in the middle; their sum is 1
@@ -33,7 +33,7 @@ struct ScatterLayout {
 struct ScreenLayout {
   PixelGrid columns{}, rows{};  ///< pixels of the image, from the centre of the screen
   double screen_width_mm = 0, screen_height_mm = 0;
-  double picture_width_mm = 0, picture_height_mm = 0;  ///< of the mode's picture, centred on the screen
+  double picture_width_mm = 0, picture_height_mm = 0;  ///< size of the mode's picture, centred on the screen
   double sigma_px = 0;                                 ///< tubes: the beam, in pixels of the mode
   int lines_per_row = 1;                               ///< scan lines per row of pixels
   std::size_t colors = 3;

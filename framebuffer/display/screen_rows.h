@@ -10,7 +10,7 @@
 
 namespace tessera::detail {
 
-/// What a long phosphor keeps from frame to frame.
+/// Light that a long phosphor keeps from frame to frame.
 struct Afterglow {
   bool is_kept = false;
   double kept_per_frame = 0;  ///< share of the light that is left after a frame

@@ -18,7 +18,7 @@ constexpr double fejer_weight(double frequency, double limit) { return 1 - frequ
 struct Stripes {
   double period_mm;
   double width_mm;
-  double center_mm;  ///< of one of the stripes
+  double center_mm;  ///< position of one of the stripes
 };
 
 /// Light of stripes at pixels, 1 on average: their Fourier series up to half of the sampling rate 1 /

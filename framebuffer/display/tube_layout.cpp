@@ -18,7 +18,7 @@ constexpr double kMmPerInch = 25.4;
 /// Structures with fewer pixels per period are drawn as their mean: at 2 they reach half of the sampling
 /// rate.
 constexpr double kMinPixelsPerPeriod = 2;
-constexpr double kCellsPerSigma = 2.5;  ///< of the grid of scattered light
+constexpr double kCellsPerSigma = 2.5;  ///< pitch of the grid of scattered light
 
 /// The raster: a picture of the mode's shape within the 4:3 screen, enlarged by the overscan.
 void place_raster(const CrtTube& tube, const VideoMode& mode, ScreenLayout& layout) {

@@ -25,7 +25,7 @@ struct VideoMode {
   std::optional<ScanTiming> timing{};
 };
 
-/// The part of a screen that is looked at, and the size of its image.
+/// The part of a screen that an image shows, and the size of the image.
 struct ScreenView {
   double scale_px_per_mm = 0;          ///< above 0; 0: 1440 rows for the part's height
   double x_mm = 0, y_mm = 0;           ///< upper left corner of the part, from that of the screen
@@ -40,7 +40,7 @@ struct VideoPicture {
   /// Levels of 8 bits, red, green, blue and pixel_bytes - 3 more bytes per pixel; rows from the top.
   std::span<const std::uint8_t> rgb{};
   int pixel_bytes = 3;              ///< 3 or 4
-  std::ptrdiff_t stride_bytes = 0;  ///< of `rgb`; 0: width * pixel_bytes
+  std::ptrdiff_t stride_bytes = 0;  ///< from a row of `rgb` to the next; 0: width * pixel_bytes
   /// Plane k holds bit k of each pixel, bit 7 of a byte leftmost; 1 to 24 planes.
   std::vector<std::span<const std::uint8_t>> planes{};
   std::ptrdiff_t plane_stride_bytes = 0;  ///< 0: (width + 7) / 8
@@ -52,7 +52,7 @@ struct VideoPicture {
 /// Where an image goes. Either pointer may be null.
 struct ScreenImage {
   std::uint8_t* rgb = nullptr;      ///< sRGB, 3 bytes per pixel, rows from the top
-  std::ptrdiff_t stride_bytes = 0;  ///< of `rgb`; 0: 3 * width
+  std::ptrdiff_t stride_bytes = 0;  ///< from a row of `rgb` to the next; 0: 3 * width
   /// Linear light of the primaries of BT.709, 3 floats per pixel without gaps. Light outside of its gamut has
   /// components below 0.
   float* light = nullptr;
@@ -98,8 +98,8 @@ class TESSERA_DISPLAY_API Screen {
 
   int width() const;         ///< columns of the image
   int height() const;        ///< rows of the image
-  double width_mm() const;   ///< of the whole screen
-  double height_mm() const;  ///< of the whole screen
+  double width_mm() const;   ///< size of the whole screen
+  double height_mm() const;  ///< size of the whole screen
   double frame_ms() const;   ///< time from one frame of the mode to the next
 
   /// Mean light of a white picture in the image, relative to the light of an image that is white throughout.
@@ -121,7 +121,7 @@ class TESSERA_DISPLAY_API Screen {
   void reset();
 
  private:
-  struct State;
+  struct __attribute__((visibility("hidden"))) State;
   std::unique_ptr<State> state_;
 };
 

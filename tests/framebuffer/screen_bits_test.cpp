@@ -30,7 +30,7 @@ std::vector<std::uint8_t> noise(unsigned seed) {
   });
 }
 
-/// Runs work on threads of its own.
+/// Starts a thread per worker.
 struct Threads {
   int count;
   int workers() const { return count; }

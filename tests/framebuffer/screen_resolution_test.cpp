@@ -45,7 +45,7 @@ double modulation(const std::vector<double>& row, double periods) {
 }
 
 TEST(ScreenResolution, GratingsLoseTheProductOfBeamPoleAndAperture) {
-  constexpr double kScale = 10 / kPixelMm;  // of the image: 10 columns per pixel
+  constexpr double kScale = 10 / kPixelMm;  // 10 columns of the image per pixel
   for (const double beam_mm : {0.4, 0.76, 1.2})
     for (const double bandwidth_mhz : {1.5, 3.0, 6.0})
       for (const int period : {1, 2, 3, 4, 5, 6, 7, 8}) {
@@ -111,7 +111,7 @@ TEST(ScreenResolution, SubpixelsHaveTheContrastOfTheirFill) {
 
 TEST(ScreenResolution, LinesRippleByFormula) {
   constexpr double kLineMm = kPixelMm;                     // 240 lines on 3/4 of the width
-  for (const double sigma : {0.2, 0.25, 0.3, 0.4, 0.5}) {  // of the distance of lines
+  for (const double sigma : {0.2, 0.25, 0.3, 0.4, 0.5}) {  // over the distance of lines
     const double beam_mm = sigma * kLineMm * 2 * std::sqrt(2 * std::log(2.0));
     const LightImage image = show_once(linear_tube(beam_mm, 1000), kMode,
                                        {.scale_px_per_mm = 20 / kLineMm,
