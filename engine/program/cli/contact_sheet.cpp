@@ -12,7 +12,7 @@ namespace tessera::program::cli {
 namespace {
 
 constexpr int kGap = 16;      ///< pixels between cells, and around the sheet
-constexpr int kLabelGap = 6;  ///< between a picture and its label
+constexpr int kLabelGap = 6;  ///< between the pictures of a cell and its label
 constexpr int kMaxTextScale = 2;
 using Rgb = std::array<std::uint8_t, 3>;
 constexpr Rgb kBackground{34, 36, 40};
@@ -23,12 +23,13 @@ struct Layout {
   CellSize cell;
   int columns = 1;
   int text_scale = 1;
+  std::size_t pictures = 1;     ///< number in the cell with the most
   std::size_t label_lines = 0;  ///< lines of the longest label
 
   int line_height() const { return (kGlyphHeight + 2) * text_scale; }
-  int row_height() const {
-    return cell.height + kLabelGap + static_cast<int>(label_lines) * line_height() + kGap;
-  }
+  int picture_top(std::size_t picture) const { return static_cast<int>(picture) * (cell.height + kLabelGap); }
+  int label_top() const { return picture_top(pictures); }
+  int row_height() const { return label_top() + static_cast<int>(label_lines) * line_height() + kGap; }
   int left(std::size_t index) const { return kGap + static_cast<int>(index) % columns * (cell.width + kGap); }
   int top(std::size_t index) const { return kGap + static_cast<int>(index) / columns * row_height(); }
 };
@@ -50,9 +51,11 @@ Layout layout_of(std::span<const SheetCell> cells, int columns) {
     });
   };
   while (layout.text_scale > 1 && !std::ranges::all_of(cells, fits)) --layout.text_scale;
-  for (const SheetCell& cell : cells)
+  for (const SheetCell& cell : cells) {
+    layout.pictures = std::max(layout.pictures, cell.pictures.size());
     layout.label_lines =
         std::max(layout.label_lines, wrapped(cell.label, layout.cell.width, layout.text_scale).size());
+  }
   return layout;
 }
 
@@ -96,10 +99,12 @@ Picture contact_sheet(std::span<const SheetCell> cells, int columns) {
   fill(sheet, kBackground);
   const TextStyle style{.scale = layout.text_scale, .color = kTextColor};
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Picture& picture = cells[i].picture;
-    copy_picture(picture, layout.left(i) + (layout.cell.width - picture.width) / 2,
-                 layout.top(i) + (layout.cell.height - picture.height) / 2, sheet);
-    int y = layout.top(i) + layout.cell.height + kLabelGap;
+    for (std::size_t k = 0; k < cells[i].pictures.size(); ++k) {
+      const Picture& picture = cells[i].pictures[k];
+      copy_picture(picture, layout.left(i) + (layout.cell.width - picture.width) / 2,
+                   layout.top(i) + layout.picture_top(k) + (layout.cell.height - picture.height) / 2, sheet);
+    }
+    int y = layout.top(i) + layout.label_top();
     for (const std::string& line : wrapped(cells[i].label, layout.cell.width, layout.text_scale)) {
       draw_text(line, layout.left(i), y, style, sheet);
       y += layout.line_height();

@@ -1,4 +1,4 @@
-// A grid of labelled pictures, each in the true shape of its screen.
+// A grid of labelled cells, each with pictures in the true shape of their screen.
 #pragma once
 
 #include <span>
@@ -20,8 +20,8 @@ struct CellSize {
 CellSize cell_size(int columns);
 
 struct SheetCell {
-  Picture picture;                 ///< at most as large as a cell; centred in it
-  std::vector<std::string> label;  ///< lines below the picture, printable ASCII
+  std::vector<Picture> pictures;   ///< one below the other, each at most as large as a cell and centred in it
+  std::vector<std::string> label;  ///< lines below the pictures, printable ASCII
 };
 
 /// Resizes a picture so that it fills a cell in width or height, with the given width to height; see

@@ -96,6 +96,11 @@ void show_pictures(const DisplayCommandRequest& request) {
 
 void display(const DisplayCommandRequest& request) {
   if (request.list) std::cout << (request.json ? display_list_json() : display_list_text());
+  else if (request.presets)
+    compare_displays({.input = request.pictures.empty() ? "" : request.pictures.front(),
+                      .folder = request.output.path,
+                      .place = request.place,
+                      .threads = request.threads});
   else show_pictures(request);
 }
 

@@ -1,7 +1,11 @@
 // Options of `tessera display`, and those of `tessera render` that concern a display.
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "engine/program/cli/command_options.h"
+#include "engine/program/cli/output.h"
+#include "engine/program/cli/parse_overrides.h"
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/validators.h"
 #include "engine/program/scene/file_extension.h"
@@ -16,6 +20,8 @@ constexpr const char* kDisplayExamples = R"(Examples:
   tessera display a.png --display crt:pitch=0.31,mask=slots --part 100,80,12,9 --scale 100 -o near.png
   tessera display f*.png --display lcd-laptop -o 'lcd_{frame}.png' frames in order
   tessera display p.png --mode cga-hi --display cga-composite -o artifacts.png --signal lines.pfm
+  tessera display --presets -o screens            the teapot on all presets, with a contact sheet
+  tessera display --presets truck.glb --near 0.7,0.4 -o screens
   tessera display --list                          kinds, parameters and presets)";
 
 void add_display_name(CLI::App& command, DisplayRequest& request) {
@@ -67,8 +73,10 @@ void add_view(CLI::App& command, DisplayRequest& request) {
 
 void add_pictures(CLI::App& command, DisplayCommandRequest& request) {
   command
-      .add_option("pictures", request.pictures,
-                  "pictures of the size of the mode; several are frames in order")
+      .add_option(
+          "pictures", request.pictures,
+          "pictures of the size of the mode; several are frames in order. With --presets: a scene or a "
+          "model; default: the built-in scene")
       ->option_text("[PICTURE...]")
       ->take_all()
       ->check(not_empty("a picture's name"));
@@ -76,7 +84,8 @@ void add_pictures(CLI::App& command, DisplayCommandRequest& request) {
       .add_option(
           "-o,--output", request.output.path,
           "image to write: .png, .ppm, ... as for render; .pfm receives linear light (BT.709); {frame} "
-          "in the name is the frame's number; - is the standard output (PPM), term the terminal")
+          "in the name is the frame's number; - is the standard output (PPM), term the terminal. With "
+          "--presets: a folder")
       ->option_text("FILE")
       ->check(not_empty("FILE's name"));
   command
@@ -118,9 +127,49 @@ void check_signal(const DisplayCommandRequest& request) {
         "--signal", "found " + cli::quoted(request.signal) + ", expected a name that ends in .pfm");
 }
 
+void add_presets(CLI::App& command, DisplayCommandRequest& request) {
+  command.add_flag("--presets", request.presets,
+                   "draw a scene in the typical mode of each preset, show it on the preset's display, and "
+                   "write PRESET.png "
+                   "(the whole screen), PRESET-near.png (a close-up) and contact.png into the folder -o");
+  command
+      .add_option_function<std::string>(
+          "--near",
+          [&request](const std::string& text) {
+            const std::vector<double> place = parse_numbers(text, 2, 2);
+            const auto is_share = [](double value) { return value >= 0 && value <= 1; };
+            if (place.empty() || !std::ranges::all_of(place, is_share))
+              throw CLI::ValidationError("--near", "found \"" + text +
+                                                       "\", expected X,Y from 0 to 1: shares of the screen's "
+                                                       "width and height");
+            request.place = {place[0], place[1]};
+          },
+          "middle of the close-ups of --presets in shares of the screen's width and height, from the upper "
+          "left corner; default: 0.53,0.44")
+      ->option_text("X,Y");
+}
+
+/// Refuses what does not belong to a comparison of presets.
+void check_presets(const CLI::App& command, const DisplayCommandRequest& request) {
+  for (const char* const option : {"--display", "--mode", "--scale", "--part", "--gain", "--time",
+                                   "--frame-ms", "--signal", "--compression", "--list", "--json"})
+    if (command.count(option) > 0)
+      throw CLI::ValidationError(option, "excludes --presets, which chooses displays, modes and views");
+  if (request.pictures.size() > 1)
+    throw CLI::ValidationError(
+        "--presets", "found " + std::to_string(request.pictures.size()) + " scenes, expected one or none");
+  if (request.output.path.empty() || is_stream(request.output.path))
+    throw CLI::ValidationError(
+        "-o", "found " + (request.output.path.empty() ? "none" : cli::quoted(request.output.path)) +
+                  ", expected a folder");
+}
+
 /// Refuses missing operands.
 void check_use(const CLI::App& command, const DisplayCommandRequest& request) {
-  if (command.remaining_size() > 0 || request.list) return;  // remaining words are reported as unexpected
+  if (command.remaining_size() > 0) return;  // reported as unexpected
+  if (request.presets) return check_presets(command, request);
+  if (request.list) return;
+  if (command.count("--near") > 0) throw CLI::ValidationError("--near", "needs --presets");
   if (request.json) throw CLI::ValidationError("--json", "needs --list");
   if (request.pictures.empty())
     throw CLI::ValidationError("PICTURE", "found none, expected a picture, frames in order, or --list");
@@ -154,6 +203,7 @@ CLI::App* add_display(CLI::App& program, DisplayCommandRequest& request) {
   command->add_option("--threads", request.threads, "threads; default: TESSERA_THREADS, or all cores")
       ->option_text("N")
       ->transform(integer_from(1, 1024));
+  add_presets(*command, request);
   command->add_flag("--list", request.list,
                     "list the kinds with their parameters, units, ranges and sources, and the presets");
   command->add_flag("--json", request.json, "print the list as JSON");

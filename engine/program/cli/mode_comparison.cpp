@@ -11,6 +11,7 @@
 #include "engine/program/cli/mode_pictures.h"
 #include "engine/program/cli/mode_selection.h"
 #include "engine/program/cli/mode_table.h"
+#include "engine/program/cli/output_folder.h"
 #include "engine/program/cli/progress.h"
 #include "engine/program/compare/flip.h"
 #include "engine/program/imageio/atomic_file.h"
@@ -63,15 +64,6 @@ std::vector<std::string> label_of(const ModeRow& row) {
           std::string(dither_name(row.dither))};
 }
 
-/// Creates the folder.
-/// @throws Error if files cannot be written into it
-void prepare_folder(const std::string& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw Error("cannot make the folder \"" + folder + "\": " + error.message());
-  require_writable((fs::path(folder) / "modes.csv").string());
-}
-
 class ModeComparison {
  public:
   explicit ModeComparison(const ModeComparisonRequest& request);
@@ -79,6 +71,9 @@ class ModeComparison {
   const std::vector<ModeRow>& rows() const { return rows_; }
 
  private:
+  Scene scene_in(const DisplayMode& mode, Dither dither) {
+    return scenes_.in_mode(mode, dither, request_.dither_in);
+  }
   ModePicture draw_reference(const DisplayMode& mode);
   const Picture& reference(const DisplayMode& mode);
   void add_row(const ModeGroup& group, Dither dither);
@@ -103,13 +98,13 @@ ModeComparison::ModeComparison(const ModeComparisonRequest& request)
     : request_(request),
       groups_(grouped(request.modes.empty() ? modes_with_pixels() : request.modes)),
       dithers_(request.dithers.empty() ? all_dithers() : request.dithers),
-      scenes_(request.input, request.dither_in),
+      scenes_(request.input),
       renderer_({.threads = request.threads, .progress = [](double) { return !Interrupt::pressed(); }}) {}
 
 /// @throws Error  also for scenes of palette indices
 ModePicture ModeComparison::draw_reference(const DisplayMode& mode) {
   try {
-    return draw_in_mode(scenes_.in_mode(reference_mode(mode), Dither::none), renderer_);
+    return draw_in_mode(scene_in(reference_mode(mode), Dither::none), renderer_, FrameTimes::none);
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
@@ -138,7 +133,7 @@ double ModeComparison::flip(const Picture& picture, const Picture& reference,
 void ModeComparison::add_row(const ModeGroup& group, Dither dither) {
   const DisplayMode& mode = group.mode;
   const Picture& exact = reference(mode);
-  ModePicture drawn = draw_in_mode(scenes_.in_mode(mode, dither), renderer_);
+  ModePicture drawn = draw_in_mode(scene_in(mode, dither), renderer_);
   drawn.picture.channels = 3;
   ModeRow row{.group = group,
               .dither = dither,
@@ -154,7 +149,7 @@ void ModeComparison::add_row(const ModeGroup& group, Dither dither) {
   else write_picture(drawn.picture, path_of(row.picture));
   if (const auto sheet_row = this->sheet_row(group)) {
     Picture shown = cell_picture(drawn.picture, mode.screen_aspect(), cell_size(sheet_columns()));
-    cells_[*sheet_row].push_back({std::move(shown), label_of(row)});
+    cells_[*sheet_row].push_back({{std::move(shown)}, label_of(row)});
   }
   rows_.push_back(std::move(row));
 }
@@ -178,8 +173,8 @@ void ModeComparison::write_sheet() {
 }
 
 void ModeComparison::run() {
-  scenes_.in_mode(groups_.front().mode, dithers_.front());  // a broken scene leaves no folder
-  prepare_folder(request_.folder);
+  scene_in(groups_.front().mode, dithers_.front());  // a broken scene leaves no folder
+  prepare_folder(request_.folder, "modes.csv");
   double all = 0, done = 0;
   for (const ModeGroup& group : groups_) all += static_cast<double>(pixel_count(group));
   for (const ModeGroup& group : groups_)

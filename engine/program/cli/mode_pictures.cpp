@@ -62,7 +62,7 @@ double median_frame_ms(const Scene& scene, Renderer& renderer, SceneBuffers& buf
   return median(std::move(times));
 }
 
-ModePicture drawn(const Scene& scene, Renderer& renderer) {
+ModePicture drawn(const Scene& scene, Renderer& renderer, FrameTimes times) {
   SceneBuffers buffers(scene);
   ModePicture result{.picture = Picture(scene.framebuffer.width, scene.framebuffer.height),
                      .indexed = {},
@@ -71,7 +71,8 @@ ModePicture drawn(const Scene& scene, Renderer& renderer) {
   if (scene.reduced) result.buffer_bytes += FrameBuffer::memory_bytes(*scene.reduced);
   draw_frame(scene, renderer, !scene.reduced, buffers, result.picture);
   if (is_indexed(buffers.shown().format())) result.indexed = indexed_picture(buffers.shown());
-  result.frame_ms = median_frame_ms(scene, renderer, buffers, result.picture);
+  if (times == FrameTimes::measured)
+    result.frame_ms = median_frame_ms(scene, renderer, buffers, result.picture);
   return result;
 }
 
@@ -101,7 +102,7 @@ bool concerns_format(const Error& error) {
 
 }  // namespace
 
-Scene ModeScenes::in_mode(const DisplayMode& mode, Dither dither) {
+Scene ModeScenes::in_mode(const DisplayMode& mode, Dither dither, DitherSpace dither_in) {
   auto found = scenes_.find(mode.screen_aspect());
   if (found == scenes_.end()) {
     const SceneInput input(input_, {.mode = mode});
@@ -109,20 +110,20 @@ Scene ModeScenes::in_mode(const DisplayMode& mode, Dither dither) {
     found = scenes_.emplace(mode.screen_aspect(), input.scene()).first;
   }
   Scene scene = found->second;
-  apply(compared(mode, dither, dither_in_), scene);
+  apply(compared(mode, dither, dither_in), scene);
   return scene;
 }
 
-ModePicture draw_in_mode(Scene scene, Renderer& renderer) {
+ModePicture draw_in_mode(Scene scene, Renderer& renderer, FrameTimes times) {
   set_chosen_palette(scene, renderer);
   try {
-    return drawn(scene, renderer);
+    return drawn(scene, renderer, times);
   } catch (const Error& error) {
     const bool may_reduce = scene.mode->color_mode == ColorMode::index && !scene.reduced;
     if (!may_reduce || !concerns_format(error)) throw;
   }
   reduce_to_mode(scene);
-  return drawn(scene, renderer);
+  return drawn(scene, renderer, times);
 }
 
 DisplayMode reference_mode(const DisplayMode& mode) {

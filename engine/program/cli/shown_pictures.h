@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/program/cli/close_up.h"
 #include "engine/program/cli/display_request.h"
 #include "engine/program/imageio/picture.h"
 #include "engine/program/threads/loop_workers.h"
@@ -34,6 +35,9 @@ class ShownPictures {
   const Picture& image() const { return image_; }
   /// Writes that image, for .pfm its light.
   void write(const std::string& path, int compression) const;
+  /// Mean light of a white picture in the image; see Screen::white_level().
+  double white_level() const { return screen_.white_level(); }
+  ScreenSize size() const { return {screen_.width_mm(), screen_.height_mm()}; }
   /// Time of the next picture.
   double next_ms() const { return start_ms_ + shown_ * frame_ms_; }
 

@@ -43,7 +43,7 @@ TEST(CellSize, IsFourToThreeAndFitsTheSheet) {
   for (int columns = 1; columns <= 13; ++columns) {
     const CellSize cell = cell_size(columns);
     EXPECT_EQ(cell.width * 3, cell.height * 4) << columns;
-    const SheetCell empty{Picture(1, 1), {}};
+    const SheetCell empty{{Picture(1, 1)}, {}};
     EXPECT_LE(contact_sheet({&empty, 1}, columns).width, kMaxSheetWidth) << columns;
   }
   EXPECT_EQ(cell_size(3).width, 640);
@@ -72,8 +72,8 @@ TEST(ContactSheet, PlacesPicturesInAGrid) {
   const CellSize cell = cell_size(4);
   std::vector<SheetCell> cells;
   for (const std::uint8_t red : {101, 102, 103, 104, 105, 106})
-    cells.push_back({plain(cell.width, cell.height, red), {"label"}});
-  cells[1].picture = plain(240, 240, 102);
+    cells.push_back({{plain(cell.width, cell.height, red)}, {"label"}});
+  cells[1].pictures[0] = plain(240, 240, 102);
   const Picture sheet = contact_sheet(cells, 4);
   EXPECT_EQ(sheet.width, 16 + 4 * 336);
   const Box first = box_of(sheet, 101), narrow = box_of(sheet, 102), below = box_of(sheet, 106);
@@ -88,6 +88,21 @@ TEST(ContactSheet, PlacesPicturesInAGrid) {
   EXPECT_LT(below.bottom, sheet.height - 2 * kGlyphHeight);
 }
 
+TEST(ContactSheet, PlacesThePicturesOfACellBelowEachOther) {
+  std::vector<SheetCell> cells(6, {{plain(320, 240, 1), plain(320, 240, 2)}, {"label"}});
+  cells[1].pictures = {plain(320, 200, 101), plain(300, 240, 102)};
+  cells[5].pictures = {plain(320, 240, 103)};
+  const Picture sheet = contact_sheet(cells, 4);
+  const Box first = box_of(sheet, 101), second = box_of(sheet, 102), below = box_of(sheet, 103);
+  EXPECT_EQ(first.pixels, 320 * 200);
+  EXPECT_EQ(second.pixels, 300 * 240);
+  EXPECT_EQ(first.top, 16 + 20);
+  EXPECT_EQ(second.left, 16 + 336 + 10);
+  EXPECT_EQ(second.top, 16 + 240 + 6);
+  EXPECT_GT(below.top, second.bottom + 2 * kGlyphHeight);
+  EXPECT_EQ(sheet.height, 16 + 2 * (below.top - 16)) << "a cell with one picture is as high";
+}
+
 TEST(ContactSheet, CutsOffNoLabel) {
   constexpr std::uint8_t kTextRed = 222;
   const struct {
@@ -97,7 +112,7 @@ TEST(ContactSheet, CutsOffNoLabel) {
                {{"a mode with a long name of 40 characters", "bayer8"}, 1},
                {{std::string(150, 'M'), "none"}, 1}};
   for (const auto& row : kRows) {
-    std::vector<SheetCell> cells(4, {plain(320, 240, 3), row.label});
+    std::vector<SheetCell> cells(4, {{plain(320, 240, 3)}, row.label});
     const Picture sheet = contact_sheet(cells, 4);
     int expected = 0;
     for (const std::string& line : row.label)
