@@ -122,15 +122,32 @@ Picture decode_ppm(const std::string& file) {
 
 }  // namespace
 
-Picture read_picture(const std::string& path) {
-  const std::string file = read_text_file(path);
+namespace {
+
+/// The extension of formats that begin with a signature; empty: others.
+std::string extension_by_signature(std::string_view file) {
+  if (file.starts_with("\x89PNG")) return ".png";
+  if (file.starts_with("\xff\xd8\xff")) return ".jpg";
+  if (file.starts_with("GIF8")) return ".gif";
+  if (file.starts_with("BM")) return ".bmp";
+  if (file.starts_with("RIFF") && file.substr(0, 12).ends_with("WEBP")) return ".webp";
+  if (file.starts_with("P6")) return ".ppm";
+  return "";
+}
+
+}  // namespace
+
+Picture decode_picture(const std::string& file, const std::string& name) {
   try {
-    const std::string extension = lower_case_extension(path);
+    std::string extension = extension_by_signature(file);
+    if (extension.empty()) extension = lower_case_extension(name);
     return extension == ".ppm" ? decode_ppm(file) : decode_by_module(file, extension);
   } catch (const Error& error) {
-    throw Error("cannot read \"" + path + "\": " + error.what());
+    throw Error("cannot read \"" + name + "\": " + error.what());
   }
 }
+
+Picture read_picture(const std::string& path) { return decode_picture(read_text_file(path), path); }
 
 void write_indexed_png(const IndexedPicture& picture, const std::string& path, int compression) {
   write_file_atomically(path,

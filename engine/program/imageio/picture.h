@@ -64,6 +64,11 @@ std::vector<std::string> builtin_extensions();
 /// @throws Error without the module
 std::vector<std::string> module_extensions();
 
+/// Decodes the bytes of an image file.
+/// @param name  for messages; its extension is the format of bytes that do not tell their own
+/// @throws Error, naming the image
+Picture decode_picture(const std::string& file, const std::string& name);
+
 /// Writes a plane as a binary PBM; a set bit is PBM's 1.
 void write_plane(const PlaneView& plane, const std::string& path);
 

@@ -9,6 +9,7 @@
 #include "engine/program/import/child_process.h"
 #include "engine/program/import/import_module_interface.h"
 #include "engine/program/import/model_bytes.h"
+#include "engine/program/import/model_images.h"
 #include "engine/program/import/model_normals.h"
 #include "engine/program/import/obj.h"
 #include "engine/program/scene/file_extension.h"
@@ -54,6 +55,7 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
     Model model = lower_case_extension(path) == ".obj" ? import_obj(path)
                                                        : model_from_bytes(import_by_module(path), path);
     if (use == ModelUse::display) {
+      decode_images(path, model);
       if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
       orient_by_normals(model.mesh);
     }

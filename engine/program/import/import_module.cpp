@@ -92,7 +92,7 @@ int answer(const Work& work, tessera_import_take_function* take, void* user, cha
 }  // namespace
 }  // namespace tessera::program
 
-extern "C" TESSERA_API int tessera_import_3(const char* path, tessera_import_take_function* take, void* user,
+extern "C" TESSERA_API int tessera_import_4(const char* path, tessera_import_take_function* take, void* user,
                                             char* message, std::size_t message_size) {
   return tessera::program::answer([&] { return tessera::program::to_bytes(tessera::program::read(path)); },
                                   take, user, message, message_size);

@@ -26,7 +26,7 @@ typedef int tessera_import_formats_function(tessera_import_take_function* take, 
                                             size_t message_size);
 
 /* The numbers change with the signatures and with the byte format. */
-#define TESSERA_IMPORT_NAME "tessera_import_3"
+#define TESSERA_IMPORT_NAME "tessera_import_4"
 #define TESSERA_IMPORT_FORMATS_NAME "tessera_import_formats_1"
 #define TESSERA_IMPORT_FILE_NAME "libtessera_import.so." TESSERA_SOVERSION
 

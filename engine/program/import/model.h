@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -14,13 +15,45 @@ namespace tessera::program {
 
 inline constexpr int kMaxNodeDepth = 500;  ///< files whose nodes are nested deeper are rejected
 
-/// The triangles of one material: a range of the mesh's indices.
+/// An image of a material. Readers of models name files or give their bytes; decode_images() does the rest.
+struct ModelImage {
+  std::string name;     ///< a file relative to the model's folder, as the model names it; or any name
+  std::string encoded;  ///< bytes of an image file within the model; empty: read the file `name`
+  /// A second image file whose luminance becomes the alpha (map_d of MTL); empty: none.
+  std::string alpha_name;
+  // Filled in by decode_images():
+  int width = 0, height = 0;         ///< pixels
+  bool has_alpha = false;            ///< some alpha is below 255
+  std::vector<std::uint8_t> pixels;  ///< RGBA, rows from the top without gaps
+};
+
+/// An image and how it is sampled.
+struct ModelTexture {
+  std::size_t image = 0;  ///< index into Model::images
+  TextureSampler sampler;
+};
+
+/// How alpha, the product of those of material, vertex colour and texture, is used.
+enum class ModelAlpha : std::uint8_t {
+  opaque,  ///< ignored
+  mask,    ///< fragments below the cutoff are discarded, all others are opaque
+  blend    ///< drawn over what lies behind
+};
+
+/// The triangles, lines or points of one material: a range of the mesh's indices.
 struct ModelPart {
-  std::string material_name;  ///< empty: the file names none
-  Material material;
+  std::string material_name;                   ///< empty: the file names none
+  Material material;                           ///< diffuse alpha is the material's
+  Primitive primitive = Primitive::triangles;  ///< triangles, lines or points
   std::size_t first_index = 0;
   std::size_t index_count = 0;
-  bool uses_colors = false;  ///< vertex colours replace the ambient and diffuse colour
+  /// Vertex colours replace the ambient and diffuse colour; readers multiply them by the material's.
+  bool uses_colors = false;
+  bool is_unlit = false;                 ///< lights and normals are ignored: the colour is the diffuse one
+  bool is_double_sided = true;           ///< false: back faces are culled
+  std::optional<std::size_t> texture{};  ///< index into Model::textures; multiplies ambient and diffuse
+  ModelAlpha alpha = ModelAlpha::opaque;
+  float alpha_cutoff = 0.5f;  ///< ModelAlpha::mask
 };
 
 /// A camera of a model file, valid for any size of the picture.
@@ -38,6 +71,10 @@ struct ModelCamera {
 struct Model {
   MeshData mesh;                 ///< all parts, indexed; colours and texture coordinates if the file has them
   std::vector<ModelPart> parts;  ///< in the order of first use; never empty
+  std::vector<ModelImage> images;
+  std::vector<ModelTexture> textures;
+  /// What was subtracted from the coordinates of the file, so that floats are precise far from the origin.
+  Vec3 origin{};
   std::vector<std::string> warnings;  ///< one line each, such as a missing material file
   std::vector<ModelCamera> cameras;
   std::vector<Light> lights;  ///< in world space

@@ -1,5 +1,7 @@
 #include "engine/program/import/model_bytes.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <optional>
 #include <type_traits>
@@ -26,7 +28,13 @@ void visit_members(Stream& stream, SameUnqualified<ModelCamera> auto& value);
 template <class Stream>
 void visit_members(Stream& stream, SameUnqualified<ModelPart> auto& value);
 template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<ModelImage> auto& value);
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<ModelTexture> auto& value);
+template <class Stream>
 void visit_members(Stream& stream, SameUnqualified<std::string> auto& value);
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<std::size_t> auto& value);
 
 class Writer {
  public:
@@ -35,6 +43,9 @@ class Writer {
   template <class T>
   requires kIsPlain<T>
   void operator()(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void enumerator(Enum value, Enum) { (*this)(static_cast<std::uint8_t>(value)); }
   void operator()(const std::string& text) { list(text); }
   template <class T>
   void operator()(const std::vector<T>& elements) {
@@ -61,6 +72,16 @@ class Writer {
 
 class Reader {
  public:
+  /// Enumerators up to `last`.
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void enumerator(Enum& value, Enum last) {
+    std::uint8_t number = 0;
+    (*this)(number);
+    if (number > static_cast<std::uint8_t>(last)) fail();
+    value = static_cast<Enum>(number);
+  }
+
   explicit Reader(const std::string& bytes) : bytes_(bytes) {}
 
   template <class T>
@@ -144,13 +165,41 @@ template <class Stream>
 void visit_members(Stream& stream, SameUnqualified<ModelPart> auto& p) {
   stream(p.material_name);
   visit_members(stream, p.material);
+  stream.enumerator(p.primitive, Primitive::triangles);
   stream(p.first_index);
   stream(p.index_count);
   stream(p.uses_colors);
+  stream(p.is_unlit);
+  stream(p.is_double_sided);
+  stream(p.texture);
+  stream.enumerator(p.alpha, ModelAlpha::blend);
+  stream(p.alpha_cutoff);
+}
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<ModelImage> auto& image) {
+  stream(image.name);
+  stream(image.encoded);
+  stream(image.alpha_name);
+  stream(image.width);
+  stream(image.height);
+  stream(image.has_alpha);
+  stream(image.pixels);
+}
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<ModelTexture> auto& texture) {
+  stream(texture.image);
+  stream.enumerator(texture.sampler.mag, TextureFilter::linear);
+  stream.enumerator(texture.sampler.min, TextureFilter::linear_mipmap_linear);
+  stream.enumerator(texture.sampler.wrap_s, TextureWrap::mirrored_repeat);
+  stream.enumerator(texture.sampler.wrap_t, TextureWrap::mirrored_repeat);
 }
 template <class Stream>
 void visit_members(Stream& stream, SameUnqualified<std::string> auto& text) {
   stream(text);
+}
+template <class Stream>
+void visit_members(Stream& stream, SameUnqualified<std::size_t> auto& number) {
+  stream(number);
 }
 template <class Stream>
 void visit_members(Stream& stream, SameUnqualified<Model> auto& model) {
@@ -160,10 +209,30 @@ void visit_members(Stream& stream, SameUnqualified<Model> auto& model) {
   stream(model.mesh.texcoords);
   stream(model.mesh.indices);
   stream(model.parts);
+  stream(model.images);
+  stream(model.textures);
+  for (auto* x : {&model.origin.x, &model.origin.y, &model.origin.z}) stream(*x);
   stream(model.warnings);
   stream(model.cameras);
   stream(model.lights);
   stream(model.ambient_light);
+}
+
+/// Images are decoded, or not yet.
+bool is_valid(const ModelImage& image) {
+  if (image.width < 0 || image.height < 0) return false;
+  return image.pixels.size() ==
+         4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+}
+
+/// Whether a part has whole primitives, and a texture that exists.
+bool is_valid(const ModelPart& part, const Model& model) {
+  std::size_t corners = 3;
+  if (part.primitive == Primitive::points) corners = 1;
+  if (part.primitive == Primitive::lines) corners = 2;
+  const bool is_list = corners < 3 || part.primitive == Primitive::triangles;
+  return is_list && part.index_count % corners == 0 &&
+         (!part.texture || *part.texture < model.textures.size());
 }
 
 bool is_valid(const Model& model) {
@@ -177,10 +246,13 @@ bool is_valid(const Model& model) {
   if (!attributes_fit || model.parts.empty()) return false;
   for (const std::uint32_t index : mesh.indices)
     if (index >= vertices) return false;
+  if (!std::ranges::all_of(model.images, [](const ModelImage& image) { return is_valid(image); }))
+    return false;
+  for (const ModelTexture& texture : model.textures)
+    if (texture.image >= model.images.size()) return false;
   std::size_t next = 0;
   for (const ModelPart& part : model.parts) {
-    if (part.first_index != next || part.index_count % 3 != 0 ||
-        part.index_count > mesh.indices.size() - next)
+    if (!is_valid(part, model) || part.first_index != next || part.index_count > mesh.indices.size() - next)
       return false;
     next += part.index_count;
   }
