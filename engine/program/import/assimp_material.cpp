@@ -108,18 +108,63 @@ Material material_of(const aiMaterial& from) {
   return phong_material(from, model);
 }
 
-bool has_color_texture(const aiMaterial& from) {
-  constexpr aiTextureType kColors[] = {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR,
-                                       aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR};
-  return std::any_of(std::begin(kColors), std::end(kColors),
-                     [&](aiTextureType type) { return from.GetTextureCount(type) > 0; });
+namespace {
+
+TextureWrap wrap_of(aiTextureMapMode mode) {
+  if (mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal) return TextureWrap::clamp_to_edge;
+  return mode == aiTextureMapMode_Mirror ? TextureWrap::mirrored_repeat : TextureWrap::repeat;
 }
 
-bool is_transparent(const aiMaterial& from) {
+/// Filters that glTF gives by the numbers of OpenGL; absent: the default.
+void set_filters(const aiMaterial& from, aiTextureType type, TextureSampler& sampler) {
+  int mag = 0, min = 0;
+  from.Get(AI_MATKEY_GLTF_MAPPINGFILTER_MAG(type, 0), mag);
+  from.Get(AI_MATKEY_GLTF_MAPPINGFILTER_MIN(type, 0), min);
+  constexpr int kNearest = 9728, kLinear = 9729, kFirstMipmap = 9984;
+  constexpr TextureFilter kMipmaps[] = {
+      TextureFilter::nearest_mipmap_nearest, TextureFilter::linear_mipmap_nearest,
+      TextureFilter::nearest_mipmap_linear, TextureFilter::linear_mipmap_linear};
+  if (mag == kNearest) sampler.mag = TextureFilter::nearest;
+  if (min == kNearest) sampler.min = TextureFilter::nearest;
+  if (min == kLinear) sampler.min = TextureFilter::linear;
+  if (min >= kFirstMipmap && min < kFirstMipmap + 4) sampler.min = kMipmaps[min - kFirstMipmap];
+}
+
+}  // namespace
+
+std::optional<ColorTexture> color_texture_of(const aiMaterial& from) {
+  for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+    if (from.GetTextureCount(type) == 0) continue;
+    aiString name;
+    aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
+    ColorTexture texture;
+    if (from.GetTexture(type, 0, &name, nullptr, &texture.channel, nullptr, nullptr, modes) != AI_SUCCESS)
+      continue;
+    texture.name = name.C_Str();
+    texture.sampler.wrap_s = wrap_of(modes[0]);
+    texture.sampler.wrap_t = wrap_of(modes[1]);
+    set_filters(from, type, texture.sampler);
+    from.Get(AI_MATKEY_UVTRANSFORM(type, 0), texture.transform);
+    return texture;
+  }
+  return std::nullopt;
+}
+
+void set_alpha_and_faces(const aiMaterial& from, ModelPart& part) {
   aiString mode;
-  if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS)
-    return std::string_view(mode.C_Str()) != "OPAQUE";
-  return number(from, AI_MATKEY_OPACITY).value_or(1) < 1;
+  if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) != AI_SUCCESS) {
+    if (const float opacity = number(from, AI_MATKEY_OPACITY).value_or(1); opacity < 1) {
+      part.material.diffuse.a = std::max(opacity, 0.0f);
+      part.alpha = ModelAlpha::blend;
+    }
+    return;
+  }
+  const std::string_view name = mode.C_Str();
+  if (name == "MASK") part.alpha = ModelAlpha::mask;
+  if (name == "BLEND") part.alpha = ModelAlpha::blend;
+  part.alpha_cutoff = number(from, AI_MATKEY_GLTF_ALPHACUTOFF).value_or(0.5f);
+  int two_sided = 0;
+  part.is_double_sided = from.Get(AI_MATKEY_TWOSIDED, two_sided) != AI_SUCCESS || two_sided != 0;
 }
 
 }  // namespace tessera::program

@@ -9,17 +9,28 @@
 // diffuse colour.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include <assimp/material.h>
 
-#include "engine/tessera/tessera.hpp"
+#include "engine/program/import/model.h"
 
 namespace tessera::program {
 
 Material material_of(const aiMaterial& from);
 
-/// Returns whether a texture supplies the material's colours.
-bool has_color_texture(const aiMaterial& from);
-/// Returns whether the material is meant to be translucent.
-bool is_transparent(const aiMaterial& from);
+/// The image that supplies the colours of a material, and how its coordinates become those of the texture.
+struct ColorTexture {
+  std::string name;      ///< a file, or the name of an embedded image
+  unsigned channel = 0;  ///< which texture coordinates of the mesh
+  TextureSampler sampler;
+  aiUVTransform transform;  ///< scaling and rotation around (0.5, 0.5), then translation
+};
+std::optional<ColorTexture> color_texture_of(const aiMaterial& from);
+
+/// Sets how a part uses its alpha and which of its faces are drawn.
+/// - glTF: alphaMode, alphaCutoff, doubleSided. Other formats: opacity below 1 blends.
+void set_alpha_and_faces(const aiMaterial& from, ModelPart& part);
 
 }  // namespace tessera::program

@@ -1,10 +1,14 @@
 #include "engine/program/import/assimp_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <assimp/GltfMaterial.h>
 
 #include "engine/program/import/assimp_material.h"
 #include "engine/program/import/assimp_view.h"
@@ -37,28 +41,17 @@ class Converter {
       mesh_has_colors_.push_back(has_vertex_colors(*scene_.mMeshes[m]));
     has_colors_ = std::find(mesh_has_colors_.begin(), mesh_has_colors_.end(), true) != mesh_has_colors_.end();
     for (unsigned m = 0; m < scene_.mNumMeshes; ++m) has_texcoords_ |= scene_.mMeshes[m]->HasTextureCoords(0);
-    for (unsigned m = 0; m < scene_.mNumMaterials; ++m)
+    for (unsigned m = 0; m < scene_.mNumMaterials; ++m) {
       materials_.push_back(material_of(*scene_.mMaterials[m]));
+      textures_.push_back(color_texture_of(*scene_.mMaterials[m]));
+    }
   }
 
   Model converted() {
     if (scene_.mRootNode != nullptr) visit(*scene_.mRootNode, aiMatrix4x4(), 0);
-    int textures = 0;
-    int transparent = 0;
-    for (const auto& [material, indices] : by_material_) {
-      if (indices.empty()) continue;
-      add_part(material, indices);
-      if (material >= scene_.mNumMaterials) continue;
-      textures += has_color_texture(*scene_.mMaterials[material]) ? 1 : 0;
-      transparent += is_transparent(*scene_.mMaterials[material]) ? 1 : 0;
-    }
-    if (model_.parts.empty()) throw Error(std::string(kHoldsNoTriangle));
-    if (textures > 0)
-      model_.warnings.push_back("textures of models are not supported: " + std::to_string(textures) +
-                                " materials with one keep their plain colours");
-    if (transparent > 0)
-      model_.warnings.push_back("transparency is not supported: " + std::to_string(transparent) +
-                                " transparent materials are drawn opaque");
+    for (const auto& [key, indices] : by_material_)
+      if (!indices.empty()) add_part(key, indices);
+    if (model_.parts.empty()) throw Error(std::string(kHoldsNothing));
     return std::move(model_);
   }
 
@@ -96,8 +89,7 @@ class Converter {
 
   void add_mesh(unsigned number, const aiMatrix4x4& world) {
     const aiMesh& mesh = *scene_.mMeshes[number];
-    if ((mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0 || !mesh.HasPositions() || !mesh.HasFaces())
-      return;
+    if (!mesh.HasPositions() || !mesh.HasFaces()) return;
     const auto first = static_cast<std::uint32_t>(model_.mesh.vertex_count());
     aiMatrix3x3 normal_matrix(world);
     const bool mirrors = normal_matrix.Determinant() < 0;
@@ -111,7 +103,7 @@ class Converter {
       if (has_colors_) add_color(mesh, mesh_has_colors_[number], v);
       if (has_texcoords_) add_texcoords(mesh, v);
     }
-    add_triangles(mesh, first, mirrors);
+    add_primitives(mesh, first, mirrors);
   }
 
   // Vertex colours are factors of the material's colour, so their product is stored per vertex.
@@ -125,33 +117,88 @@ class Converter {
 
   // assimp flips v where the format requires it, so t always grows upwards.
   void add_texcoords(const aiMesh& mesh, unsigned vertex) {
-    const aiVector3D at = mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][vertex] : aiVector3D();
-    model_.mesh.texcoords.insert(model_.mesh.texcoords.end(), {at.x, at.y});
+    const ColorTexture* texture = nullptr;
+    if (mesh.mMaterialIndex < textures_.size() && textures_[mesh.mMaterialIndex])
+      texture = &*textures_[mesh.mMaterialIndex];
+    const unsigned channel =
+        texture != nullptr && mesh.HasTextureCoords(texture->channel) ? texture->channel : 0;
+    const aiVector3D at =
+        mesh.HasTextureCoords(channel) ? mesh.mTextureCoords[channel][vertex] : aiVector3D();
+    float s = at.x, t = at.y;
+    if (texture != nullptr) {
+      const aiUVTransform& to = texture->transform;
+      const float x = (s - 0.5f) * to.mScaling.x, y = (t - 0.5f) * to.mScaling.y;
+      const float sine = std::sin(to.mRotation), cosine = std::cos(to.mRotation);
+      s = x * cosine - y * sine + 0.5f + to.mTranslation.x;
+      t = x * sine + y * cosine + 0.5f + to.mTranslation.y;
+    }
+    model_.mesh.texcoords.insert(model_.mesh.texcoords.end(), {s, t});
   }
 
-  void add_triangles(const aiMesh& mesh, std::uint32_t first, bool mirrors) {
-    std::vector<std::uint32_t>& indices = by_material_[mesh.mMaterialIndex];
+  void add_primitives(const aiMesh& mesh, std::uint32_t first, bool mirrors) {
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
-      if (face.mNumIndices != 3) continue;
-      for (const unsigned k : {0u, mirrors ? 2u : 1u, mirrors ? 1u : 2u}) {
-        if (face.mIndices[k] >= mesh.mNumVertices)
-          throw Error("a triangle refers to vertex " + std::to_string(face.mIndices[k]) + ", there are " +
-                      std::to_string(mesh.mNumVertices));
-        indices.push_back(first + face.mIndices[k]);
+      if (face.mNumIndices < 1 || face.mNumIndices > 3) continue;
+      std::vector<std::uint32_t>& indices = by_material_[{3 - face.mNumIndices, mesh.mMaterialIndex}];
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        const unsigned corner = mirrors && face.mNumIndices == 3 && k > 0 ? 3 - k : k;
+        if (face.mIndices[corner] >= mesh.mNumVertices)
+          throw Error("a primitive refers to vertex " + std::to_string(face.mIndices[corner]) +
+                      ", there are " + std::to_string(mesh.mNumVertices));
+        indices.push_back(first + face.mIndices[corner]);
       }
     }
   }
 
-  void add_part(unsigned material, const std::vector<std::uint32_t>& indices) {
+  // An image of the scene, or the name of a file.
+  std::size_t add_image(const std::string& name) {
+    const auto [known, is_new] = image_numbers_.try_emplace(name, model_.images.size());
+    if (!is_new) return known->second;
+    ModelImage& image = model_.images.emplace_back();
+    image.name = name;
+    const aiTexture* embedded = scene_.GetEmbeddedTexture(name.c_str());
+    if (embedded == nullptr) return known->second;
+    if (embedded->mHeight == 0) {  // the bytes of an image file
+      image.encoded.assign(reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth);
+      image.name += std::string(".") + embedded->achFormatHint;
+      return known->second;
+    }
+    image.width = static_cast<int>(embedded->mWidth);
+    image.height = static_cast<int>(embedded->mHeight);
+    for (std::size_t i = 0; i < std::size_t{embedded->mWidth} * embedded->mHeight; ++i) {
+      const aiTexel& texel = embedded->pcData[i];
+      image.pixels.insert(image.pixels.end(), {texel.r, texel.g, texel.b, texel.a});
+    }
+    return known->second;
+  }
+
+  void set_texture(unsigned material, ModelPart& part) {
+    if (!textures_[material]) return;
+    part.texture = model_.textures.size();
+    model_.textures.push_back({add_image(textures_[material]->name), textures_[material]->sampler});
+    Color& diffuse = part.material.diffuse;
+    const bool is_black = diffuse.r <= 0 && diffuse.g <= 0 && diffuse.b <= 0;
+    aiString mode;
+    const bool is_gltf = scene_.mMaterials[material]->Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS;
+    if (!is_black || is_gltf) return;  // factors of glTF mean what they say
+    diffuse = {1, 1, 1, diffuse.a};
+    part.material.ambient = {1, 1, 1, 1};
+  }
+
+  void add_part(const std::pair<unsigned, unsigned>& key, const std::vector<std::uint32_t>& indices) {
+    constexpr Primitive kPrimitives[] = {Primitive::triangles, Primitive::lines, Primitive::points};
+    const unsigned material = key.second;
     ModelPart part{.material_name = {},
                    .material = {},
+                   .primitive = kPrimitives[key.first],
                    .first_index = model_.mesh.indices.size(),
                    .index_count = indices.size(),
                    .uses_colors = has_colors_};
     if (material < scene_.mNumMaterials) {
       part.material_name = scene_.mMaterials[material]->GetName().C_Str();
       part.material = materials_[material];
+      set_alpha_and_faces(*scene_.mMaterials[material], part);
+      set_texture(material, part);
     }
     model_.mesh.indices.insert(model_.mesh.indices.end(), indices.begin(), indices.end());
     model_.parts.push_back(std::move(part));
@@ -166,7 +213,10 @@ class Converter {
   std::vector<bool> camera_used_;
   std::vector<bool> light_used_;
   std::vector<Material> materials_;
-  std::map<unsigned, std::vector<std::uint32_t>> by_material_;  // triangles' vertex indices
+  std::vector<std::optional<ColorTexture>> textures_;  // of the materials
+  std::map<std::string, std::size_t> image_numbers_;
+  // Vertex indices by kind of primitive (0: triangles, 1: lines, 2: points) and material.
+  std::map<std::pair<unsigned, unsigned>, std::vector<std::uint32_t>> by_material_;
   Model model_;
 };
 

@@ -56,8 +56,8 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
                                                        : model_from_bytes(import_by_module(path), path);
     if (use == ModelUse::display) {
       decode_images(path, model);
-      if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
-      orient_by_normals(model.mesh);
+      if (model.mesh.normals.empty()) add_creased_normals(model);
+      orient_by_normals(model);
     }
     return to_bytes(model);
   };

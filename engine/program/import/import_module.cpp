@@ -8,7 +8,6 @@
 #include <new>
 #include <string>
 
-#include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/Importer.hpp>
@@ -31,7 +30,7 @@ bool contains(const std::string& path, const std::string& word) {
 
 [[noreturn]] void refuse(const std::string& reason) {
   if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // caught inside assimp
-  throw Error(reason == "No meshes remaining" ? std::string(kHoldsNoTriangle) : reason);
+  throw Error(reason == "No meshes remaining" ? std::string(kHoldsNothing) : reason);
 }
 
 Model read(const std::string& path) {
@@ -40,7 +39,6 @@ Model read(const std::string& path) {
   if (extension.empty() || !importer.IsExtensionSupported(extension))
     throw Error("the file name extension is \"" + extension +
                 "\", expected one of those listed by \"tessera formats\"");
-  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_LINE | aiPrimitiveType_POINT);
   const aiScene* const scene = importer.ReadFile(
       path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
   if (scene == nullptr) refuse(importer.GetErrorString());
@@ -55,7 +53,7 @@ Model read(const std::string& path) {
     model.warnings.push_back("has an orthographic camera: the cameras of such Collada files are left out");
   }
   // glTF 2 specifies flat normals where a file gives none.
-  add_creased_normals(model.mesh, is_gltf2 ? 0 : kCreaseDegrees);
+  add_creased_normals(model, is_gltf2 ? 0 : kCreaseDegrees);
   if (is_gltf2) {
     model.cameras = std::move(view.cameras);
     model.lights = std::move(view.lights);

@@ -69,8 +69,9 @@ struct ModelCamera {
 };
 
 struct Model {
-  MeshData mesh;                 ///< all parts, indexed; colours and texture coordinates if the file has them
-  std::vector<ModelPart> parts;  ///< in the order of first use; never empty
+  MeshData mesh;  ///< all parts, indexed; colours and texture coordinates if the file has them
+  /// In the order of first use, but parts of lines and points come after those of triangles. Never empty.
+  std::vector<ModelPart> parts;
   std::vector<ModelImage> images;
   std::vector<ModelTexture> textures;
   /// What was subtracted from the coordinates of the file, so that floats are precise far from the origin.

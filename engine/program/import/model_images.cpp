@@ -116,7 +116,7 @@ void decode_images(const std::string& model_path, Model& model) {
     if (texture_is_used[i]) image_is_used[model.textures[i].image] = true;
 
   for (std::size_t i = 0; i < model.images.size(); ++i) {
-    if (!image_is_used[i]) continue;
+    if (!image_is_used[i] || !model.images[i].pixels.empty()) continue;
     try {
       decode(model_path, model.images[i]);
     } catch (const Error& error) {

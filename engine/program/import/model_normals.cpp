@@ -145,15 +145,32 @@ void add_creased_normals(MeshData& mesh, double crease_degrees) {
   }
 }
 
-void orient_by_normals(MeshData& mesh) {
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const Double3 face = face_normal(mesh, i);
-    double along = 0;
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const Float3 n = float3(mesh.normals, mesh.indices[i + corner]);
-      along += face[0] * n[0] + face[1] * n[1] + face[2] * n[2];
+void add_creased_normals(Model& model, double crease_degrees) {
+  // Parts of triangles come first.
+  std::size_t triangle_indices = 0;
+  for (const ModelPart& part : model.parts)
+    if (part.primitive == Primitive::triangles) triangle_indices = part.first_index + part.index_count;
+  std::vector<std::uint32_t>& indices = model.mesh.indices;
+  const auto end_of_triangles = indices.begin() + static_cast<std::ptrdiff_t>(triangle_indices);
+  const std::vector<std::uint32_t> others(end_of_triangles, indices.end());
+  indices.erase(end_of_triangles, indices.end());
+  add_creased_normals(model.mesh, crease_degrees);
+  indices.insert(indices.end(), others.begin(), others.end());
+}
+
+void orient_by_normals(Model& model) {
+  MeshData& mesh = model.mesh;
+  for (const ModelPart& part : model.parts) {
+    if (part.primitive != Primitive::triangles || !part.is_double_sided) continue;
+    for (std::size_t i = part.first_index; i < part.first_index + part.index_count; i += 3) {
+      const Double3 face = face_normal(mesh, i);
+      double along = 0;
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const Float3 n = float3(mesh.normals, mesh.indices[i + corner]);
+        along += face[0] * n[0] + face[1] * n[1] + face[2] * n[2];
+      }
+      if (along < 0) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
     }
-    if (along < 0) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
   }
 }
 

@@ -1,7 +1,7 @@
 // Generates missing normals of a model, and matches the winding of triangles to their normals.
 #pragma once
 
-#include "engine/program/scene/mesh_data.h"
+#include "engine/program/import/model.h"
 
 namespace tessera::program {
 
@@ -14,7 +14,11 @@ constexpr double kCreaseDegrees = 60;
 /// - Vertices on creases are split.
 void add_creased_normals(MeshData& mesh, double crease_degrees = kCreaseDegrees);
 
-/// Winds triangles counter-clockwise when viewed from the side their normals point to.
-void orient_by_normals(MeshData& mesh);
+/// Does so for the triangles of a model. Lines and points get normals of length 0.
+void add_creased_normals(Model& model, double crease_degrees = kCreaseDegrees);
+
+/// Winds triangles counter-clockwise when viewed from the side their normals point to, except those of parts
+/// that are not double-sided: there the winding tells the faces apart.
+void orient_by_normals(Model& model);
 
 }  // namespace tessera::program

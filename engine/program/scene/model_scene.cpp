@@ -1,143 +1,13 @@
 #include "engine/program/scene/model_scene.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 
+#include "engine/program/scene/follow_camera.h"
+#include "engine/program/scene/model_camera.h"
+#include "engine/program/scene/model_draws.h"
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera::program {
-namespace {
-
-constexpr double kFovy = 36;  // degrees
-
-double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-// Ignores vertices that are not finite, which are not drawn.
-Vec3 center_of_bounds(const MeshData& mesh) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low{kInfinity, kInfinity, kInfinity};
-  std::array<double, 3> high{-kInfinity, -kInfinity, -kInfinity};
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    if (!std::isfinite(mesh.positions[i])) continue;
-    low[i % 3] = std::min<double>(low[i % 3], mesh.positions[i]);
-    high[i % 3] = std::max<double>(high[i % 3], mesh.positions[i]);
-  }
-  return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
-}
-
-// Views the model from the front, slightly from above and from the right, as near as the picture's edges
-// allow. A vertex at x, y and z (towards the viewer) is visible if |y| <= (distance - z) tan(fovy / 2);
-// likewise for x.
-SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::string& name) {
-  const SinCos azimuth = sin_cos_degrees(25);
-  const SinCos elevation = sin_cos_degrees(17);
-  const SinCos half_fovy = sin_cos_degrees(kFovy / 2);
-  const Vec3 right{azimuth.cosine, 0, -azimuth.sine};
-  // Points towards the viewer.
-  const Vec3 back{elevation.cosine * azimuth.sine, elevation.sine, elevation.cosine * azimuth.cosine};
-  const Vec3 up{-elevation.sine * azimuth.sine, elevation.cosine, -elevation.sine * azimuth.cosine};
-  const Vec3 center = center_of_bounds(mesh);
-
-  constexpr double kMargin = 1.08;
-  const double tangent_y = half_fovy.sine / half_fovy.cosine / kMargin;
-  const double tangent_x = tangent_y * aspect;
-  double distance = 0;
-  double radius = 0;
-  for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
-    const Vec3 p{mesh.positions[i] - center.x, mesh.positions[i + 1] - center.y,
-                 mesh.positions[i + 2] - center.z};
-    if (!std::isfinite(p.x + p.y + p.z)) continue;
-    distance = std::max(distance, dot(p, back) + std::max(std::abs(dot(p, right)) / tangent_x,
-                                                          std::abs(dot(p, up)) / tangent_y));
-    radius = std::max(radius, std::sqrt(dot(p, p)));
-  }
-  if (!(radius > 0) || !std::isfinite(radius))
-    throw Error(name + ": the model has no extent for a camera to frame");
-  // Keeps the eye away from models that are long in the direction of view.
-  distance = std::max(distance, 1.5 * radius);
-  const Vec3 eye{center.x + distance * back.x, center.y + distance * back.y, center.z + distance * back.z};
-  return {
-      .view = look_at(eye, center, {0, 1, 0}),
-      .projection = Lens{.fovy = kFovy, .near = distance - 1.01 * radius, .far = distance + 1.01 * radius}};
-}
-
-// Returns a camera of the file, unless the whole model lies behind it. For depth precision, near and far are
-// moved as close to the model as the file allows.
-std::optional<SceneCamera> camera_of_model(const ModelCamera& camera, const MeshData& mesh, double aspect) {
-  // Distances along the direction of view.
-  double min_distance = std::numeric_limits<double>::infinity();
-  double max_distance = 0;
-  const double* const row = &camera.view.m[8];
-  for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
-    const double distance = -(row[0] * mesh.positions[i] + row[1] * mesh.positions[i + 1] +
-                              row[2] * mesh.positions[i + 2] + row[3]);
-    if (!std::isfinite(distance)) continue;
-    min_distance = std::min(min_distance, distance);
-    max_distance = std::max(max_distance, distance);
-  }
-  constexpr double kMargin = 1.01;
-  constexpr double kMaxFarNearRatio = 1e5;
-  const double given_far =
-      camera.far > std::max(camera.near, 0.0) ? camera.far : std::numeric_limits<double>::infinity();
-  const double far = max_distance > 0 ? std::min(given_far, max_distance * kMargin) : 1;
-  const double near =
-      std::max(camera.near > 0 ? camera.near : far / kMaxFarNearRatio, min_distance / kMargin);
-  if (!(near < far)) return {};
-  const double h = camera.half_height > 0 ? camera.half_height : camera.half_width / aspect;
-  const double w = h * aspect;
-  try {
-    return SceneCamera{.view = camera.view,
-                       .projection = camera.is_orthographic
-                                         ? orthographic(-w, w, -h, h, near, far)
-                                         : frustum(-w * near, w * near, -h * near, h * near, near, far)};
-  } catch (const Error&) {
-    return {};  // the projection overflows or underflows
-  }
-}
-
-// Tests outcodes: returns false only if each triangle lies wholly beyond one plane of the view volume.
-bool any_triangle_in_view(const SceneCamera& camera, double aspect, const MeshData& mesh) {
-  const Camera at = camera.at_aspect(aspect);
-  const auto outcode = [&](std::uint32_t vertex) {
-    const float* const p = &mesh.positions[3 * std::size_t{vertex}];
-    const auto transformed = [](const Matrix& m, const std::array<double, 4>& v) {
-      std::array<double, 4> r{};
-      for (std::size_t row = 0; row < 4; ++row)
-        for (std::size_t k = 0; k < 4; ++k) r[row] += m.m[4 * row + k] * v[k];
-      return r;
-    };
-    const std::array<double, 4> c = transformed(at.projection, transformed(at.view, {p[0], p[1], p[2], 1}));
-    unsigned planes = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      planes |= (c[k] < -c[3] ? 1u << (2 * k) : 0u) | (c[k] > c[3] ? 2u << (2 * k) : 0u);
-    return planes;
-  };
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-    if ((outcode(mesh.indices[i]) & outcode(mesh.indices[i + 1]) & outcode(mesh.indices[i + 2])) == 0)
-      return true;
-  return false;
-}
-
-// Chooses the first camera of the file that shows any of the model; if none does, one that frames the model.
-void choose_camera(const Model& model, double aspect, Scene& scene) {
-  scene.camera = framing_camera(model.mesh, aspect, scene.name);
-  constexpr std::size_t kMaxTriedCameras = 16;  // each test costs a pass over the model
-  for (std::size_t i = 0; i < std::min(model.cameras.size(), kMaxTriedCameras); ++i)
-    if (const auto camera = camera_of_model(model.cameras[i], model.mesh, aspect);
-        camera && any_triangle_in_view(*camera, aspect, model.mesh)) {
-      scene.camera = *camera;
-      return;
-    }
-  if (!model.cameras.empty())
-    scene.warnings.push_back(scene.name +
-                             ": no camera of the file shows the model; a default camera frames it");
-}
-
-}  // namespace
 
 Scene model_scene(Model model, const std::string& name, int width, int height) {
   Scene scene{.name = name, .title = name};
@@ -146,22 +16,13 @@ Scene model_scene(Model model, const std::string& name, int width, int height) {
   scene.light_model.local_viewer = true;
   scene.light_model.two_sided = true;  // models may have holes and wrongly wound faces
   scene.lights = model.lights;
-  if (scene.lights.empty())
-    scene.lights = {Light{.position = {0.15f, 0.75f, 0.65f, 0}}};  // over the viewer's left shoulder
+  scene.has_shoulder_light = model.lights.empty();
   if (model.ambient_light) scene.light_model.ambient = *model.ambient_light;
   scene.warnings = model.warnings;
   choose_camera(model, static_cast<double>(width) / height, scene);
   scene.frame.push_back({Clear{.color = Color{0.18f, 0.2f, 0.25f, 1}, .depth = 1.0, .stencil = 0u}, ""});
-
-  const std::vector<ModelPart> parts = model.parts;
-  scene.meshes = split_into_parts(std::move(model));
-  for (std::size_t part = 0; part < parts.size(); ++part) {
-    DrawCommand draw{.mesh = part};
-    draw.state.material = parts[part].material;
-    if (parts[part].uses_colors) draw.state.color_material = ColorMaterial::ambient_and_diffuse;
-    draw.state.shading = Shading::phong;
-    scene.frame.push_back({draw, ""});
-  }
+  add_model_draws(std::move(model), scene);
+  follow_camera(scene);
   return scene;
 }
 

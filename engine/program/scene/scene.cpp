@@ -1,6 +1,9 @@
 #include "engine/program/scene/scene.h"
 
+#include <span>
+
 #include "engine/program/scene/chosen_palette.h"
+#include "engine/program/scene/follow_camera.h"
 #include "engine/program/scene/scene_mode.h"
 
 namespace tessera::program {
@@ -30,6 +33,12 @@ Clear masked(Clear clear, const FrameBufferFormat& format) {
 }
 
 }  // namespace
+
+Mesh DrawCommand::view(const std::vector<MeshData>& meshes) const {
+  Mesh view = meshes[mesh].view();
+  if (index_count > 0) view.indices = std::span(meshes[mesh].indices).subspan(first_index, index_count);
+  return view;
+}
 
 Camera SceneCamera::at_aspect(double aspect) const {
   const auto matrix = std::visit(
@@ -115,6 +124,7 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
   }
   if (!overrides.lights.empty()) {
     scene.lights = overrides.lights;
+    scene.has_shoulder_light = false;
     std::erase_if(scene.frame, [](const SceneCommand& command) {
       return std::holds_alternative<LightList>(command.value);
     });
@@ -127,6 +137,7 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
   if (overrides.shading)
     for (SceneCommand& command : scene.frame)
       if (auto* draw = std::get_if<DrawCommand>(&command.value)) draw->state.shading = *overrides.shading;
+  if (overrides.camera) follow_camera(scene);
 }
 
 void record(const Scene& scene, Frame& frame) {
@@ -140,7 +151,7 @@ void record(const Scene& scene, Frame& frame) {
     at_command(scene, command, [&] {
       std::visit(
           Overloaded{[&](const Clear& clear) { frame.clear(masked(clear, scene.framebuffer)); },
-                     [&](const DrawCommand& draw) { frame.draw(scene.meshes[draw.mesh].view(), draw.state); },
+                     [&](const DrawCommand& draw) { frame.draw(draw.view(scene.meshes), draw.state); },
                      [&](const BitmapCommand& bitmap) { frame.draw_bitmap(bitmap.view(), bitmap.state); },
                      [&](const ImageCommand& image) { frame.draw_image(image.view(), image.state); },
                      [&](const Accum& accum) { frame.accumulate(accum); },

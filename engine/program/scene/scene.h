@@ -42,6 +42,10 @@ struct SceneCamera {
 struct DrawCommand {
   std::size_t mesh = 0;  ///< index into Scene::meshes
   DrawState state;
+  /// Range of the mesh's indices; index_count 0: the whole mesh.
+  std::size_t first_index = 0, index_count = 0;
+
+  Mesh view(const std::vector<MeshData>& meshes) const;
 };
 struct BitmapCommand {
   Bitmap bitmap;  ///< without bits
@@ -62,6 +66,14 @@ using Command =
 struct SceneCommand {
   Command value;
   std::string pointer;  ///< JSON pointer, for messages; empty: a command of the default frame
+};
+
+/// Triangles that blend. They are drawn last, from back to front.
+struct BlendedTriangles {
+  std::size_t mesh = 0;                 ///< index into Scene::meshes; its indices are sorted
+  std::vector<std::uint32_t> indices;   ///< in the order of the model, three per triangle
+  std::vector<std::uint32_t> state_of;  ///< per triangle: index into `states`
+  std::vector<DrawState> states;
 };
 
 /// Origin of the palette. given: named or listed in the scene, or the default. adaptive: chosen for the
@@ -90,6 +102,9 @@ struct Scene {
   std::vector<MeshData> meshes;                          ///< in the order of the file
   std::vector<std::shared_ptr<const Texture>> textures;  ///< in the order of the file; draws point to them
   std::vector<SceneCommand> frame;
+  // Models only; see follow_camera.h.
+  bool has_shoulder_light = false;  ///< the only light lies over the left shoulder of the camera
+  std::optional<BlendedTriangles> blended{};
   std::vector<std::string> warnings;
 };
 
