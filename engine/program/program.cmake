@@ -6,6 +6,9 @@
 #   tessera_cli      the program bin/tessera
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(tinyobjloader CONFIG REQUIRED)
+find_package(meshoptimizer CONFIG REQUIRED)
+pkg_check_modules(DRACO REQUIRED IMPORTED_TARGET draco)
+find_path(TESSERA_TINYGLTF_INCLUDE tiny_gltf.h REQUIRED)  # the header alone: its CMake target links an implementation with image readers
 find_package(CLI11 CONFIG REQUIRED)
 find_package(PNG REQUIRED)
 # Debian's CMake package of OpenImageIO is broken.
@@ -27,14 +30,17 @@ file(GLOB tessera_scene_sources CONFIGURE_DEPENDS
   ${program_dir}/compare/*.cpp ${program_dir}/threads/*.cpp)
 set(tessera_imageio_sources ${program_dir}/imageio/module.cpp ${program_dir}/imageio/indexed_png.cpp)
 set(tessera_import_sources
-  import_module.cpp assimp_material.cpp assimp_model.cpp assimp_view.cpp gltf_view.cpp)
+  import_module.cpp assimp_material.cpp assimp_model.cpp assimp_view.cpp)
 list(TRANSFORM tessera_import_sources PREPEND ${program_dir}/import/)
 list(REMOVE_ITEM tessera_scene_sources ${tessera_import_sources} ${tessera_imageio_sources})
 add_library(tessera_scene STATIC ${tessera_scene_sources} ${tessera_embedded})
 target_compile_definitions(tessera_scene PRIVATE TESSERA_SOVERSION="${tessera_soversion}")  # of the modules
 target_include_directories(tessera_scene INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
+set_source_files_properties(${program_dir}/import/tinygltf_implementation.cpp PROPERTIES
+  SKIP_UNITY_BUILD_INCLUSION ON COMPILE_OPTIONS -w)  # a library's code
 target_link_libraries(tessera_scene PRIVATE
-  tessera_options TBB::tbb nlohmann_json::nlohmann_json tinyobjloader::tinyobjloader ${CMAKE_DL_LIBS})
+  tessera_options TBB::tbb nlohmann_json::nlohmann_json tinyobjloader::tinyobjloader
+  meshoptimizer::meshoptimizer PkgConfig::DRACO ${CMAKE_DL_LIBS})
 
 
 add_library(tessera_imageio SHARED ${tessera_imageio_sources})

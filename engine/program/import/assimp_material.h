@@ -29,8 +29,7 @@ struct ColorTexture {
 };
 std::optional<ColorTexture> color_texture_of(const aiMaterial& from);
 
-/// Sets how a part uses its alpha and which of its faces are drawn.
-/// - glTF: alphaMode, alphaCutoff, doubleSided. Other formats: opacity below 1 blends.
-void set_alpha_and_faces(const aiMaterial& from, ModelPart& part);
+/// Makes a part blend if the opacity of its material is below 1.
+void set_alpha(const aiMaterial& from, ModelPart& part);
 
 }  // namespace tessera::program

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <assimp/GltfMaterial.h>
-
 #include "engine/program/import/assimp_material.h"
 #include "engine/program/import/assimp_view.h"
 
@@ -30,10 +28,8 @@ bool has_vertex_colors(const aiMesh& mesh) {
 /// Merges the meshes of all nodes of a scene, in world space, into one mesh.
 class Converter {
  public:
-  /// @param with_view  also converts cameras and lights
-  Converter(const aiScene& scene, bool with_view, bool is_collada)
+  Converter(const aiScene& scene, bool is_collada)
       : scene_(scene),
-        with_view_(with_view),
         is_collada_(is_collada),
         camera_used_(scene.mNumCameras),
         light_used_(scene.mNumLights) {
@@ -66,7 +62,7 @@ class Converter {
                     std::to_string(scene_.mNumMeshes));
       add_mesh(node.mMeshes[m], world);
     }
-    if (with_view_) add_view(node, world);
+    add_view(node, world);
     for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], world, depth + 1);
   }
 
@@ -178,9 +174,7 @@ class Converter {
     model_.textures.push_back({add_image(textures_[material]->name), textures_[material]->sampler});
     Color& diffuse = part.material.diffuse;
     const bool is_black = diffuse.r <= 0 && diffuse.g <= 0 && diffuse.b <= 0;
-    aiString mode;
-    const bool is_gltf = scene_.mMaterials[material]->Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS;
-    if (!is_black || is_gltf) return;  // factors of glTF mean what they say
+    if (!is_black) return;
     diffuse = {1, 1, 1, diffuse.a};
     part.material.ambient = {1, 1, 1, 1};
   }
@@ -197,7 +191,7 @@ class Converter {
     if (material < scene_.mNumMaterials) {
       part.material_name = scene_.mMaterials[material]->GetName().C_Str();
       part.material = materials_[material];
-      set_alpha_and_faces(*scene_.mMaterials[material], part);
+      set_alpha(*scene_.mMaterials[material], part);
       set_texture(material, part);
     }
     model_.mesh.indices.insert(model_.mesh.indices.end(), indices.begin(), indices.end());
@@ -205,7 +199,6 @@ class Converter {
   }
 
   const aiScene& scene_;
-  bool with_view_;
   bool is_collada_;
   bool has_colors_ = false;
   bool has_texcoords_ = false;
@@ -222,8 +215,6 @@ class Converter {
 
 }  // namespace
 
-Model model_of(const aiScene& scene, bool with_view, bool is_collada) {
-  return Converter(scene, with_view, is_collada).converted();
-}
+Model model_of(const aiScene& scene, bool is_collada) { return Converter(scene, is_collada).converted(); }
 
 }  // namespace tessera::program

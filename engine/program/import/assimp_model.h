@@ -14,9 +14,8 @@ inline constexpr std::string_view kHoldsNothing = "holds no triangle, line or po
 /// Merges all nodes, in world space, into one mesh with one part per material and kind of primitive.
 /// - Missing normals are 0 0 0.
 /// - Images of textures are named or copied, not decoded; see decode_images().
-/// @param with_view   also converts cameras and lights
 /// @param is_collada  assimp reports angles of cameras and spots differently for Collada
 /// @throws Error for indices out of bounds, nodes nested too deeply, or a scene without anything to draw
-Model model_of(const aiScene& scene, bool with_view, bool is_collada);
+Model model_of(const aiScene& scene, bool is_collada);
 
 }  // namespace tessera::program

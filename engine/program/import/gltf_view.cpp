@@ -1,5 +1,7 @@
 #include "engine/program/import/gltf_view.h"
 
+#include "engine/program/import/gltf_material.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -133,8 +135,8 @@ class ViewReader {
     const auto color = light.value("color", std::array<double, 3>{1, 1, 1});
     const double unit = light.value("intensity", 1.0) / std::numbers::pi;
     Light to;
-    to.diffuse = to.specular = {static_cast<float>(color[0] * unit), static_cast<float>(color[1] * unit),
-                                static_cast<float>(color[2] * unit), 1};
+    to.diffuse = to.specular = {display_referred(color[0] * unit), display_referred(color[1] * unit),
+                                display_referred(color[2] * unit), 1};
     const Vec3 place = column(world, 3);
     const Vec3 back = column(world, 2);
     const auto& type = light.at("type").get_ref<const std::string&>();
@@ -144,7 +146,7 @@ class ViewReader {
       to.position = {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z),
                      1};
       to.attenuation_constant = 0;
-      to.attenuation_quadratic = 1;
+      to.attenuation_linear = 1;
     }
     if (type == "spot") {
       const double inner = light.value("/spot/innerConeAngle"_json_pointer, 0.0);

@@ -9,9 +9,11 @@
 namespace tessera::program {
 
 /// Adds cameras and lights of the default scene to the model.
-/// Lights (KHR_lights_punctual) are in physical units and become
-///   diffuse = specular = color * intensity / pi    reflected by a white surface
-///   attenuation 1 / d^2 of points and spots        d in metres
+/// Lights (KHR_lights_punctual) are in physical units and become display-referred, as materials do: the
+/// product of two such values is about that of the product of their light, because sRGB's curve is nearly a
+/// power of 1 / 2.2.
+///   diffuse = specular = srgb(color * intensity / pi)   light that a white surface reflects
+///   attenuation 1 / d of points and spots               d in metres: (1 / d^2)^(1 / 2.2) = 1 / d^0.91
 ///   spot cutoff = outer cone angle
 ///   spot exponent: both falloffs are 1/2 at the same angle (spot_exponent.h)
 /// @return false, with nothing added, if the file is not glTF 2

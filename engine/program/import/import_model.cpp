@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "engine/program/import/child_process.h"
+#include "engine/program/import/gltf.h"
 #include "engine/program/import/import_module_interface.h"
 #include "engine/program/import/model_bytes.h"
 #include "engine/program/import/model_images.h"
@@ -39,6 +40,13 @@ std::string import_by_module(const std::string& path) {
   }
 }
 
+Model read_model(const std::string& path) {
+  const std::string extension = lower_case_extension(path);
+  if (extension == ".obj") return import_obj(path);
+  if (extension == ".gltf" || extension == ".glb") return import_gltf(path);
+  return model_from_bytes(import_by_module(path), path);
+}
+
 }  // namespace
 
 Model import_model(const std::string& path, ModelUse use, const std::function<bool()>& should_continue) {
@@ -52,8 +60,7 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
                 (fs::is_directory(status) ? "a directory" : "not a regular file") + ", expected a model");
   if (!std::ifstream(path)) throw Error("cannot read \"" + path + "\": " + std::strerror(errno));
   const auto read = [&] {
-    Model model = lower_case_extension(path) == ".obj" ? import_obj(path)
-                                                       : model_from_bytes(import_by_module(path), path);
+    Model model = read_model(path);
     if (use == ModelUse::display) {
       decode_images(path, model);
       if (model.mesh.normals.empty()) add_creased_normals(model);

@@ -13,7 +13,6 @@
 #include <assimp/Importer.hpp>
 
 #include "engine/program/import/assimp_model.h"
-#include "engine/program/import/gltf_view.h"
 #include "engine/program/import/import_module_interface.h"
 #include "engine/program/import/model_bytes.h"
 #include "engine/program/import/model_normals.h"
@@ -42,23 +41,15 @@ Model read(const std::string& path) {
   const aiScene* const scene = importer.ReadFile(
       path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
   if (scene == nullptr) refuse(importer.GetErrorString());
-  Model view;
-  const bool is_gltf2 = (extension == ".gltf" || extension == ".glb") && add_gltf_view(path, view);
   const bool is_collada = extension == ".dae" || extension == ".zae";
-  Model model = model_of(*scene, !is_gltf2, is_collada);
+  Model model = model_of(*scene, is_collada);
   importer.FreeScene();
   // assimp reads an orthographic camera of Collada as a perspective of a few degrees.
   if (extension == ".dae" && !model.cameras.empty() && contains(path, "<orthographic>")) {
     model.cameras.clear();
     model.warnings.push_back("has an orthographic camera: the cameras of such Collada files are left out");
   }
-  // glTF 2 specifies flat normals where a file gives none.
-  add_creased_normals(model, is_gltf2 ? 0 : kCreaseDegrees);
-  if (is_gltf2) {
-    model.cameras = std::move(view.cameras);
-    model.lights = std::move(view.lights);
-    model.warnings.insert(model.warnings.end(), view.warnings.begin(), view.warnings.end());
-  }
+  add_creased_normals(model);
   for (std::string& warning : model.warnings) warning = path + ": " + warning;
   return model;
 }
