@@ -47,6 +47,19 @@ Model read_model(const std::string& path) {
   return model_from_bytes(import_by_module(path), path);
 }
 
+/// Some exporters write the opacity of opaque materials as 0. A model of which nothing would be seen is opaque.
+void keep_visible(const std::string& path, Model& model) {
+  const bool is_invisible = std::ranges::all_of(model.parts, [](const ModelPart& part) {
+    return part.alpha == ModelAlpha::blend && part.material.diffuse.a == 0 && !part.uses_colors;
+  });
+  if (!is_invisible) return;
+  for (ModelPart& part : model.parts) {
+    part.alpha = ModelAlpha::opaque;
+    part.material.diffuse.a = 1;
+  }
+  model.warnings.push_back(path + ": the opacity of all materials is 0; they are drawn opaque");
+}
+
 }  // namespace
 
 Model import_model(const std::string& path, ModelUse use, const std::function<bool()>& should_continue) {
@@ -62,6 +75,7 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
   const auto read = [&] {
     Model model = read_model(path);
     if (use == ModelUse::display) {
+      keep_visible(path, model);
       decode_images(path, model);
       if (model.mesh.normals.empty()) add_creased_normals(model);
       orient_by_normals(model);

@@ -16,6 +16,7 @@ Scene model_scene(Model model, const std::string& name, int width, int height) {
   scene.light_model.local_viewer = true;
   scene.light_model.two_sided = true;  // models may have holes and wrongly wound faces
   scene.lights = model.lights;
+  scene.is_model = true;
   scene.has_shoulder_light = model.lights.empty();
   if (model.ambient_light) scene.light_model.ambient = *model.ambient_light;
   scene.warnings = model.warnings;

@@ -138,6 +138,7 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
     for (SceneCommand& command : scene.frame)
       if (auto* draw = std::get_if<DrawCommand>(&command.value)) draw->state.shading = *overrides.shading;
   if (overrides.camera) follow_camera(scene);
+  reduce_transparent_model(scene);
 }
 
 void record(const Scene& scene, Frame& frame) {

@@ -103,6 +103,7 @@ struct Scene {
   std::vector<std::shared_ptr<const Texture>> textures;  ///< in the order of the file; draws point to them
   std::vector<SceneCommand> frame;
   // Models only; see follow_camera.h.
+  bool is_model = false;
   bool has_shoulder_light = false;  ///< the only light lies over the left shoulder of the camera
   std::optional<BlendedTriangles> blended{};
   std::vector<std::string> warnings;

@@ -67,7 +67,7 @@ void set_mode_palette(const std::string& name, Scene& scene) {
 void reduce_to_mode(Scene& scene) {
   if (scene.reduced) return;
   FrameBufferFormat& format = scene.framebuffer;
-  scene.reduced = frame_buffer_format(*scene.mode);
+  scene.reduced = scene.mode ? frame_buffer_format(*scene.mode) : format;
   scene.reduced->depth = DepthFormat::none;
   scene.reduced->stencil_bits = 0;
   copy_dither(format, *scene.reduced);
@@ -75,6 +75,18 @@ void reduce_to_mode(Scene& scene) {
   format.color_bits = 24;
   format.palette.clear();
   format.dither = Dither::none;
+}
+
+void reduce_transparent_model(Scene& scene) {
+  if (!scene.is_model || scene.reduced || scene.framebuffer.color_mode != ColorMode::index) return;
+  const bool is_transparent = std::ranges::any_of(scene.frame, [](const SceneCommand& command) {
+    const auto* draw = std::get_if<DrawCommand>(&command.value);
+    return draw != nullptr && (draw->state.blend || draw->state.alpha_test);
+  });
+  if (!is_transparent) return;
+  reduce_to_mode(scene);
+  scene.warnings.push_back(scene.name +
+                           ": transparency needs colours: the model is drawn at 24 bits and then reduced");
 }
 
 void apply_mode(const SceneOverrides& overrides, Scene& scene) {

@@ -102,7 +102,9 @@ TEST(WindByNormals, ReversesTrianglesAgainstTheirNormals) {
   const std::vector<std::uint32_t> right = mesh.indices;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 6)
     std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
-  orient_by_normals(mesh);
+  Model model{.mesh = mesh, .parts = {{.index_count = mesh.indices.size()}}};
+  orient_by_normals(model);
+  mesh = model.mesh;
   EXPECT_EQ(mesh.indices, right);
 }
 
