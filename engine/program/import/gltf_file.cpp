@@ -76,7 +76,7 @@ Json parse(const std::string& text) {
 void check_version(const Json& json) {
   const auto place = "/asset/version"_json_pointer;
   const bool has_version = json.is_object() && json.contains(place) && json.at(place).is_string();
-  if (!has_version) throw Error("has no asset.version, expected glTF 2");
+  if (!has_version) throw Error("has no asset.version: it is glTF 1 or no glTF, expected glTF 2");
   const auto& version = json.at(place).get_ref<const std::string&>();
   if (!version.starts_with("2")) throw Error("is glTF " + version + ", expected glTF 2");
 }

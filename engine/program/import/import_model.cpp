@@ -47,6 +47,13 @@ Model read_model(const std::string& path) {
   return model_from_bytes(import_by_module(path), path);
 }
 
+/// A mesh has no use for images.
+void drop_textures(Model& model) {
+  for (ModelPart& part : model.parts) part.texture.reset();
+  model.textures.clear();
+  model.images.clear();
+}
+
 /// Some exporters write the opacity of opaque materials as 0. A model of which nothing would be seen is opaque.
 void keep_visible(const std::string& path, Model& model) {
   const bool is_invisible = std::ranges::all_of(model.parts, [](const ModelPart& part) {
@@ -79,6 +86,8 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
       decode_images(path, model);
       if (model.mesh.normals.empty()) add_creased_normals(model);
       orient_by_normals(model);
+    } else {
+      drop_textures(model);
     }
     return to_bytes(model);
   };
