@@ -49,6 +49,23 @@ void add_input(CLI::App& command, std::string& input) {
       ->check(not_empty("a scene's or a model's name"));
 }
 
+void add_input_format(CLI::App& command, RenderRequest& request) {
+  command
+      .add_option(
+          "--input-format", request.input_format,
+          "format of the input -, standard input: json for a scene, or the extension of a model's file: "
+          "stl, glb, ...")
+      ->option_text("FORMAT")
+      ->check(not_empty("FORMAT"));
+  command.parse_complete_callback([&request] {
+    const bool is_stdin = request.input == "-";
+    if (is_stdin && request.input_format.empty())
+      throw CLI::ValidationError("--input-format", "found none, the input - needs one, such as stl");
+    if (!is_stdin && !request.input_format.empty())
+      throw CLI::ValidationError("--input-format", "is for the input -, standard input, alone");
+  });
+}
+
 void add_output(CLI::App& command, RenderRequest& request) {
   command
       .add_option(
@@ -200,6 +217,50 @@ void add_view(CLI::App& command, SceneOverrides& overrides) {
       ->trigger_on_parse();  // called once per occurrence
 }
 
+/// Options that change how a scene or a model is drawn.
+void add_drawing(CLI::App& command, SceneOverrides& overrides) {
+  command
+      .add_option("--samples", overrides.samples,
+                  "coverage samples per pixel: 1, 4 or 8; default: the scene's")
+      ->option_text("N")
+      ->check(one_of({"1", "4", "8"}));
+  command
+      .add_option_function<std::string>(
+          "--background",
+          [&overrides](const std::string& text) {
+            if (!parse_background(text, overrides))
+              throw CLI::ValidationError(
+                  "--background", "found \"" + text + "\", expected none, #RRGGBB, or R,G,B, each 0 to 1");
+          },
+          "colour of the background, in place of the scene's; none: transparent, the picture gets alpha "
+          "(.png, .tif, ...)")
+      ->option_text("none|COLOR");
+  command.add_flag("--wireframe", overrides.wireframe, "draw the edges of polygons");
+  add_choice<UpAxis, UpAxis>(command, "--up", overrides.up,
+                             {{"x", UpAxis::x},
+                              {"y", UpAxis::y},
+                              {"z", UpAxis::z},
+                              {"-x", UpAxis::x_down},
+                              {"-y", UpAxis::y_down},
+                              {"-z", UpAxis::z_down}},
+                             "axis of a model's file that points up; default: y");
+}
+
+void add_turntable(CLI::App& command, RenderRequest& request) {
+  command
+      .add_option_function<int>(
+          "--turntable",
+          [&request](int frames) {
+            request.frames = frames;
+            request.overrides.turntable = true;
+          },
+          "pictures of one turn of the scene around its vertical axis; after the last comes the first again; "
+          "{frame} in names is the number")
+      ->option_text("N")
+      ->transform(integer_from(1, 1000000))
+      ->excludes(command.get_option("--frames"));
+}
+
 void add_repetition(CLI::App& command, RenderRequest& request) {
   command
       .add_option("--frames", request.frames,
@@ -268,6 +329,7 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   command->footer(kRenderExamples);
   command->option_defaults()->take_last();
   add_input(*command, request.input);
+  add_input_format(*command, request);
   add_output(*command, request);
   add_scene_overrides(*command, request.overrides);
   add_mode(*command, request.overrides);
@@ -276,7 +338,9 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   add_dump(*command, request);
   add_planes(*command, request);
   add_view(*command, request.overrides);
+  add_drawing(*command, request.overrides);
   add_repetition(*command, request);
+  add_turntable(*command, request);
   add_comparison(*command, request);
   add_renderer_options(*command, request.options);
   add_reports(*command, request);

@@ -13,7 +13,7 @@ template <class Visit>
 void for_pictures(SceneInput& input, int frames, const Visit& visit) {
   const int visits = input.is_animated() ? frames : 1;
   for (int f = 0; f < visits; ++f) {
-    input.move_to(frame_time(f, frames));
+    input.move_to(input.frame_time(f, frames));
     visit(input.scene());
   }
 }
@@ -36,10 +36,6 @@ std::vector<Color> ramps_of_animation(SceneInput& input, int frames, Renderer& r
 }
 
 }  // namespace
-
-double frame_time(int frame, int frames) {
-  return frames > 1 ? static_cast<double>(frame) / (frames - 1) : 0;
-}
 
 FramePalettes::FramePalettes(SceneInput& input, int frames, Renderer& renderer) {
   const PaletteSource source = input.scene().palette_source;

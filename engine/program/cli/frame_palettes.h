@@ -27,7 +27,4 @@ class FramePalettes {
   std::optional<SmoothPalette> smooth_;
 };
 
-/// Time of a picture of an animation, 0 .. 1.
-double frame_time(int frame, int frames);
-
 }  // namespace tessera::program::cli

@@ -1,7 +1,9 @@
 #include "engine/program/cli/parse_overrides.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 #include <vector>
 
@@ -54,6 +56,26 @@ bool parse_light(const std::string& text, SceneOverrides& overrides) {
   overrides.lights.push_back(
       Light{.position = {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2]),
                          n.size() == 4 ? static_cast<float>(n[3]) : 1.0f}});
+  return true;
+}
+
+bool parse_background(const std::string& text, SceneOverrides& overrides) {
+  if (text == "none") {
+    overrides.background = Color{0, 0, 0, 0};
+    return true;
+  }
+  if (text.size() == 7 && text[0] == '#') {
+    std::uint32_t rgb = 0;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, rgb, 16);
+    if (error != std::errc{} || end != text.data() + 7) return false;
+    const auto component = [&](int shift) { return static_cast<float>(rgb >> shift & 255) / 255; };
+    overrides.background = Color{component(16), component(8), component(0), 1};
+    return true;
+  }
+  const std::vector<double> n = parse_numbers(text, 3, 3);
+  if (n.empty() || std::ranges::any_of(n, [](double x) { return x < 0 || x > 1; })) return false;
+  overrides.background =
+      Color{static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2]), 1};
   return true;
 }
 

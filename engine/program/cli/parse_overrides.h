@@ -21,5 +21,7 @@ bool parse_size(const std::string& text, SceneOverrides& overrides);
 bool parse_camera(const std::string& text, SceneOverrides& overrides);
 /// "X,Y,Z[,W]": adds a white light.
 bool parse_light(const std::string& text, SceneOverrides& overrides);
+/// "none", "#rrggbb" or "R,G,B", each 0 to 1.
+bool parse_background(const std::string& text, SceneOverrides& overrides);
 
 }  // namespace tessera::program::cli

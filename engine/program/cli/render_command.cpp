@@ -171,7 +171,7 @@ void write_frame(const RenderRequest& request, const Scene& scene, const Picture
 int render(RenderRequest request) {
   const auto start = std::chrono::steady_clock::now();
   const Interrupt interrupt;
-  SceneInput input(request.input, request.overrides);
+  SceneInput input(request.input, request.overrides, request.input_format);
   input.print_warnings();
   RunStats run;
   run.load_ms = milliseconds_since(start);
@@ -209,17 +209,19 @@ int render(RenderRequest request) {
 
   label = "choosing the palette";
   FramePalettes palettes(input, request.frames, renderer);
+  const bool is_transparent = request.overrides.background && request.overrides.background->a == 0;
   int exit_code = 0;
   for (int f = 0; f < request.frames; ++f) {
     const bool is_last = f + 1 == request.frames;
     label = request.frames > 1 ? "frame " + std::to_string(f + 1) + " of " + std::to_string(request.frames)
                                : "rendering";
-    input.move_to(frame_time(f, request.frames));
+    input.move_to(input.frame_time(f, request.frames));
     const Scene& scene = input.scene();
     SceneBuffers buffers(scene);
     if (const auto palette = palettes.next(scene, renderer)) buffers.shown().set_palette(*palette);
     Frame frame(buffers.drawn, renderer);
     Picture picture(scene.framebuffer.width, scene.framebuffer.height);
+    picture.keeps_alpha = is_transparent;
     const FrameBufferFormat& format = buffers.shown().format();
     const bool writes_bits = !shown && (is_indexed_png(format, path) || is_one_bit_pbm(format, path));
     const bool reads_colors = !scene.reduced && (writes_bits || !request.dump.empty());
@@ -234,6 +236,7 @@ int render(RenderRequest request) {
       keep_buffers(!request.planes_folder.empty(), reads_colors, frame);
       run.frame = renderer.finish(frame, picture.target());
       if (buffers.reduced) reduce_picture(renderer, picture, *buffers.reduced);
+      if (is_transparent) divide_by_alpha(picture);
       run.render_ms.push_back(milliseconds_since(render_start));
     }
     progress.clear();

@@ -14,7 +14,8 @@
 namespace tessera::program::cli {
 
 struct RenderRequest {
-  std::string input;          ///< a scene or a model; empty: the built-in scene
+  std::string input;          ///< a scene or a model; empty: the built-in scene; "-": standard input
+  std::string input_format;   ///< format of standard input, such as "stl"
   OutputRequest output;       ///< path empty: INPUT.render.png in the current folder
   std::string planes_folder;  ///< empty: planes are not written
   std::string dump;           ///< file for the memory of the display mode; empty: not written

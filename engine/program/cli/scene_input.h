@@ -11,22 +11,30 @@ namespace tessera::program::cli {
 /// A scene, evaluated at the time of each frame.
 class SceneInput {
  public:
-  /// @param path       a scene or a model; empty: the built-in scene
+  /// @param path       a scene or a model; empty: the built-in scene; "-": standard input
+  /// @param format     of standard input: "json", or a model's file name extension without its dot
   /// @param overrides  replace values of the scene
   /// @throws Error      for a file that cannot be read
   /// @throws Cancelled  if the user interrupts
-  SceneInput(const std::string& path, const SceneOverrides& overrides);
+  SceneInput(const std::string& path, const SceneOverrides& overrides, const std::string& format = "");
 
   const Scene& scene() const { return scene_; }
   /// Returns whether the scene changes over time.
-  bool is_animated() const { return file_ && file_->is_animated(); }
+  bool is_animated() const { return overrides_.turntable || (file_ && file_->is_animated()); }
+  /// Time of a frame, 0 .. 1: the last one is 1, except on a turntable, which ends where it begins.
+  double frame_time(int frame, int frames) const;
   /// Evaluates the scene at `time`, 0 .. 1.
   void move_to(double time);
   /// Prints the scene's warnings on stderr.
   void print_warnings() const;
 
  private:
+  void load_model(const std::string& path);
+
   SceneOverrides overrides_;
+  // Before a turntable turns; models and the built-in scene only.
+  SceneCamera camera_;
+  LightList lights_;
   std::optional<SceneFile> file_;
   Scene scene_;
 };

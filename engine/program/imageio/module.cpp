@@ -28,7 +28,7 @@ struct Failure {
 };
 
 Bytes encode(const std::string& extension, const unsigned char* rgba, int width, int height,
-             std::ptrdiff_t stride_bytes, int compression) {
+             std::ptrdiff_t stride_bytes, int channels, int compression) {
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("picture" + extension);
   if (!output) {
     OIIO::geterror();  // cleared: its text names a file that does not exist
@@ -38,8 +38,8 @@ Bytes encode(const std::string& extension, const unsigned char* rgba, int width,
   OIIO::Filesystem::IOVecOutput memory(bytes);
   if (!output->supports("ioproxy") || !output->set_ioproxy(&memory))
     throw Failure{"OpenImageIO cannot encode " + extension + " in memory"};
-  constexpr int kChannels = 3;
-  OIIO::ImageSpec spec(width, height, kChannels, OIIO::TypeDesc::UINT8);
+  OIIO::ImageSpec spec(width, height, output->supports("alpha") ? channels : 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:UnassociatedAlpha", 1);  // colours are not multiplied by alpha
   spec.attribute("png:compressionLevel", compression >= 0 ? compression : kPngCompression);
   const bool is_encoded = output->open("picture" + extension, spec) &&
                           output->write_image(OIIO::TypeDesc::UINT8, rgba, 4, stride_bytes) &&
@@ -129,12 +129,14 @@ int deliver_bytes(tessera_imageio_take_function* take, void* user, char* message
 
 }  // namespace
 
-extern "C" TESSERA_API int tessera_imageio_encode_2(const char* extension, const unsigned char* rgba,
+extern "C" TESSERA_API int tessera_imageio_encode_3(const char* extension, const unsigned char* rgba,
                                                     int width, int height, std::ptrdiff_t stride_bytes,
-                                                    int compression, tessera_imageio_take_function* take,
-                                                    void* user, char* message, std::size_t message_size) {
-  return deliver_bytes(take, user, message, message_size,
-                       [&] { return encode(extension, rgba, width, height, stride_bytes, compression); });
+                                                    int channels, int compression,
+                                                    tessera_imageio_take_function* take, void* user,
+                                                    char* message, std::size_t message_size) {
+  return deliver_bytes(take, user, message, message_size, [&] {
+    return encode(extension, rgba, width, height, stride_bytes, channels, compression);
+  });
 }
 
 extern "C" TESSERA_API int tessera_imageio_encode_indexed_1(const unsigned char* indices, int width,

@@ -17,9 +17,10 @@ typedef void tessera_imageio_take_function(void* user, const unsigned char* byte
 
 /* Encodes RGBA pixels of 8 bits per component, rows from the top, as an image without alpha.
    extension    selects the format: ".png"
+   channels     in the file: 3, or 4 with alpha
    compression  of PNG, 0 .. 9; -1: a fast default */
 typedef int tessera_imageio_encode_function(const char* extension, const unsigned char* rgba, int width,
-                                            int height, ptrdiff_t stride_bytes, int compression,
+                                            int height, ptrdiff_t stride_bytes, int channels, int compression,
                                             tessera_imageio_take_function* take, void* user, char* message,
                                             size_t message_size);
 
@@ -43,7 +44,7 @@ typedef int tessera_imageio_formats_function(tessera_imageio_take_function* take
                                              size_t message_size);
 
 /* The numbers change with the signatures. */
-#define TESSERA_IMAGEIO_ENCODE_NAME "tessera_imageio_encode_2"
+#define TESSERA_IMAGEIO_ENCODE_NAME "tessera_imageio_encode_3"
 #define TESSERA_IMAGEIO_ENCODE_INDEXED_NAME "tessera_imageio_encode_indexed_1"
 #define TESSERA_IMAGEIO_DECODE_NAME "tessera_imageio_decode_2"
 #define TESSERA_IMAGEIO_FORMATS_NAME "tessera_imageio_formats_1"

@@ -60,6 +60,16 @@ std::string encode_ppm(const Picture& picture) {
   return file;
 }
 
+void divide_by_alpha(Picture& picture) {
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
+    const int alpha = picture.rgba[i + 3];
+    if (alpha == 0 || alpha == 255) continue;
+    for (std::size_t c = 0; c < 3; ++c)
+      picture.rgba[i + c] =
+          static_cast<std::uint8_t>(std::min((picture.rgba[i + c] * 255 + alpha / 2) / alpha, 255));
+  }
+}
+
 std::vector<std::string> builtin_extensions() { return {".pbm (1 bit)", ".pfm", ".pgm", ".ppm", ".raw"}; }
 
 namespace {

@@ -18,11 +18,16 @@ struct Picture {
 
   int width, height;
   int channels = 4;  ///< channels in the file: 1 is luminance, 2 luminance and alpha, 3 RGB, 4 RGBA
+  bool keeps_alpha =
+      false;  ///< files are written with alpha, not multiplied into the colours, if their format has it
   std::vector<std::uint8_t> rgba;
 
   /// Target for Renderer::finish() and FrameBuffer::read_color().
   ImageTarget target();
 };
+
+/// Divides the colours by alpha: a picture drawn over transparent black becomes one with plain alpha.
+void divide_by_alpha(Picture& picture);
 
 /// A palette or grey picture of few bits per pixel.
 struct IndexedPicture {

@@ -54,7 +54,8 @@ void drop_textures(Model& model) {
   model.images.clear();
 }
 
-/// Some exporters write the opacity of opaque materials as 0. A model of which nothing would be seen is opaque.
+/// Some exporters write the opacity of opaque materials as 0. A model of which nothing would be seen is
+/// opaque.
 void keep_visible(const std::string& path, Model& model) {
   const bool is_invisible = std::ranges::all_of(model.parts, [](const ModelPart& part) {
     return part.alpha == ModelAlpha::blend && part.material.diffuse.a == 0 && !part.uses_colors;

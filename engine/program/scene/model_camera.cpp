@@ -31,7 +31,7 @@ Vec3 center_of_bounds(const MeshData& mesh) {
 // Views the model from the front, slightly from above and from the right, as near as the picture's edges
 // allow. A vertex at x, y and z (towards the viewer) is visible if |y| <= (distance - z) tan(fovy / 2);
 // likewise for x.
-SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::string& name) {
+SceneCamera framing_camera(const MeshData& mesh, double aspect, bool all_sides, const std::string& name) {
   const SinCos azimuth = sin_cos_degrees(25);
   const SinCos elevation = sin_cos_degrees(17);
   const SinCos half_fovy = sin_cos_degrees(kFovy / 2);
@@ -42,6 +42,7 @@ SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::strin
   const Vec3 center = center_of_bounds(mesh);
 
   constexpr double kMargin = 1.08;
+  constexpr int kSides = 24;
   const double tangent_y = half_fovy.sine / half_fovy.cosine / kMargin;
   const double tangent_x = tangent_y * aspect;
   double distance = 0;
@@ -50,8 +51,15 @@ SceneCamera framing_camera(const MeshData& mesh, double aspect, const std::strin
     const Vec3 p{mesh.positions[i] - center.x, mesh.positions[i + 1] - center.y,
                  mesh.positions[i + 2] - center.z};
     if (!std::isfinite(p.x + p.y + p.z)) continue;
-    distance = std::max(distance, dot(p, back) + std::max(std::abs(dot(p, right)) / tangent_x,
-                                                          std::abs(dot(p, up)) / tangent_y));
+    const auto needed = [&](const Vec3& q) {
+      return dot(q, back) + std::max(std::abs(dot(q, right)) / tangent_x, std::abs(dot(q, up)) / tangent_y);
+    };
+    distance = std::max(distance, needed(p));
+    for (int side = 1; all_sides && side < kSides; ++side) {
+      const SinCos turn = sin_cos_degrees(360.0 * side / kSides);
+      distance = std::max(
+          distance, needed({turn.cosine * p.x + turn.sine * p.z, p.y, turn.cosine * p.z - turn.sine * p.x}));
+    }
     radius = std::max(radius, std::sqrt(dot(p, p)));
   }
   if (!(radius > 0) || !std::isfinite(radius))
@@ -138,8 +146,9 @@ bool any_primitive_in_view(const SceneCamera& camera, double aspect, const Model
 
 }  // namespace
 
-void choose_camera(const Model& model, double aspect, Scene& scene) {
-  scene.camera = framing_camera(model.mesh, aspect, scene.name);
+void choose_camera(const Model& model, double aspect, bool all_sides, Scene& scene) {
+  scene.camera = framing_camera(model.mesh, aspect, all_sides, scene.name);
+  if (all_sides) return;
   constexpr std::size_t kMaxTriedCameras = 16;  // each test costs a pass over the model
   for (std::size_t i = 0; i < std::min(model.cameras.size(), kMaxTriedCameras); ++i)
     if (const auto camera = camera_of_model(model.cameras[i], model.mesh, aspect);

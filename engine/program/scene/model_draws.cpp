@@ -35,7 +35,8 @@ DrawState state_of(const ModelPart& part, const Scene& scene) {
   if (part.alpha == ModelAlpha::mask)
     state.alpha_test = AlphaTest{.func = Compare::gequal, .ref = std::clamp(part.alpha_cutoff, 0.0f, 1.0f)};
   if (part.alpha == ModelAlpha::blend) {
-    state.blend = BlendState{};
+    // Colours over the background; alpha becomes the covered share.
+    state.blend = BlendState{.src_alpha = BlendFactor::one, .dst_alpha = BlendFactor::one_minus_src_alpha};
     state.depth.write = false;
   }
   return state;

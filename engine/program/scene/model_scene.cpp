@@ -9,7 +9,7 @@
 
 namespace tessera::program {
 
-Scene model_scene(Model model, const std::string& name, int width, int height) {
+Scene model_scene(Model model, const std::string& name, int width, int height, bool all_sides) {
   Scene scene{.name = name, .title = name};
   scene.framebuffer.width = width;
   scene.framebuffer.height = height;
@@ -20,7 +20,7 @@ Scene model_scene(Model model, const std::string& name, int width, int height) {
   scene.has_shoulder_light = model.lights.empty();
   if (model.ambient_light) scene.light_model.ambient = *model.ambient_light;
   scene.warnings = model.warnings;
-  choose_camera(model, static_cast<double>(width) / height, scene);
+  choose_camera(model, static_cast<double>(width) / height, all_sides, scene);
   scene.frame.push_back({Clear{.color = Color{0.18f, 0.2f, 0.25f, 1}, .depth = 1.0, .stencil = 0u}, ""});
   add_model_draws(std::move(model), scene);
   follow_camera(scene);

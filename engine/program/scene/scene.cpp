@@ -94,6 +94,34 @@ void apply_format(const SceneOverrides& overrides, Scene& scene) {
                 std::to_string(format.color_bits) + " color bits");
 }
 
+void set_shading(Shading shading, Scene& scene) {
+  for (SceneCommand& command : scene.frame)
+    if (auto* draw = std::get_if<DrawCommand>(&command.value)) draw->state.shading = shading;
+  if (!scene.blended) return;
+  for (DrawState& state : scene.blended->states) state.shading = shading;
+}
+
+/// Replaces the colour of all clears; without any, clears first.
+void set_background(const Color& color, Scene& scene) {
+  const bool is_transparent = color.a < 1;
+  if (is_transparent) scene.framebuffer.alpha_bits = 8;
+  bool clears = false;
+  for (SceneCommand& command : scene.frame)
+    if (auto* clear = std::get_if<Clear>(&command.value); clear != nullptr && clear->color) {
+      clear->color = color;
+      clears = true;
+    }
+  if (!clears) scene.frame.insert(scene.frame.begin(), SceneCommand{Clear{.color = color}, ""});
+}
+
+void draw_edges(Scene& scene) {
+  for (SceneCommand& command : scene.frame)
+    if (auto* draw = std::get_if<DrawCommand>(&command.value))
+      draw->state.front_mode = draw->state.back_mode = PolygonMode::line;
+  if (!scene.blended) return;
+  for (DrawState& state : scene.blended->states) state.front_mode = state.back_mode = PolygonMode::line;
+}
+
 }  // namespace
 
 void apply(const SceneOverrides& overrides, Scene& scene) {
@@ -134,9 +162,10 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
     std::erase_if(scene.frame,
                   [](const SceneCommand& command) { return std::holds_alternative<Quality>(command.value); });
   }
-  if (overrides.shading)
-    for (SceneCommand& command : scene.frame)
-      if (auto* draw = std::get_if<DrawCommand>(&command.value)) draw->state.shading = *overrides.shading;
+  if (overrides.shading) set_shading(*overrides.shading, scene);
+  if (overrides.samples) scene.framebuffer.samples = *overrides.samples;
+  if (overrides.background) set_background(*overrides.background, scene);
+  if (overrides.wireframe) draw_edges(scene);
   if (overrides.camera) follow_camera(scene);
   reduce_transparent_model(scene);
 }

@@ -137,6 +137,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
 /// Returns the shiny teapot, which the program renders without an input.
 Scene builtin_scene();
 
+/// The axis of a model that points up in pictures; z_down and the like: its negative.
+enum class UpAxis : std::uint8_t { x, y, z, x_down, y_down, z_down };
+
 /// Replacements for values of a scene; empty: the scene's own.
 struct SceneOverrides {
   std::optional<int> width = {}, height = {};
@@ -154,6 +157,14 @@ struct SceneOverrides {
   std::optional<SceneCamera> camera = {};  ///< for the whole frame; keeps the scene's `reversed`
   LightList lights = {};                   ///< for the whole frame
   std::optional<Quality> quality = {};     ///< for the whole frame
+  std::optional<int> samples = {};         ///< per pixel: 1, 4 or 8
+  /// Colour of all clears; alpha 0: no background, and the picture has alpha.
+  std::optional<Color> background = {};
+  bool wireframe = false;  ///< draws the edges of polygons
+  /// Turns the camera once around the vertical axis through the middle of the scene while time goes from 0
+  /// to 1.
+  bool turntable = false;
+  UpAxis up = UpAxis::y;  ///< models only: the axis of the file that points up
 };
 /// @throws Error for values out of range, for a palette that does not fit into the colour bits, and for
 /// values that the display mode determines

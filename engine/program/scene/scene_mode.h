@@ -27,8 +27,8 @@ void set_mode_palette(PaletteSource source, Scene& scene);
 /// Sets a named palette, or the source of that name.
 /// @throws Error as both above
 void set_mode_palette(const std::string& name, Scene& scene);
-/// Makes the scene's frame buffer one of 24 bits, whose pictures are reduced to the colours of the mode, or to
-/// those that the frame buffer had. The dither is that of the reduction.
+/// Makes the scene's frame buffer one of 24 bits, whose pictures are reduced to the colours of the mode, or
+/// to those that the frame buffer had. The dither is that of the reduction.
 void reduce_to_mode(Scene& scene);
 
 /// Reduces the scene of a model that blends or discards fragments if its frame buffer holds indices, which
