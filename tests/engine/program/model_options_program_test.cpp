@@ -1,0 +1,156 @@
+// Options of `tessera render` for models and scenes: samples, background, edges, axes, turns, standard input.
+#ifdef TESSERA_PROGRAM
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/program/imageio/picture.h"
+#include "tests/engine/program/program.h"
+
+namespace tessera::model_options_program_test {
+namespace {
+
+using program::Picture;
+using program::read_picture;
+
+const std::string kBunny = "/usr/share/glmark2/models/bunny.obj";
+const std::string kModels = TESSERA_SOURCE_DIR "/tests/models/gltf/";
+
+class ModelOptions : public Program {
+ protected:
+  /// Runs `tessera render` and reads the picture.
+  Picture render(const std::string& arguments) const {
+    const Result result = run("render " + arguments + " -o out.png --size 120x90");
+    EXPECT_EQ(result.code, 0) << arguments << "\n" << result.err;
+    return read_picture(path("out.png"));
+  }
+  void expect_one_error(const std::string& arguments, int code, const std::string& fragment) const {
+    const Result result = run("render " + arguments);
+    EXPECT_EQ(result.code, code) << arguments << "\n" << result.err;
+    EXPECT_TRUE(contains(result.err, fragment)) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+};
+
+std::uint8_t alpha_at(const Picture& picture, int x, int y) {
+  return picture.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                           static_cast<std::size_t>(x)) +
+                      3];
+}
+
+TEST_F(ModelOptions, PicturesWithoutBackgroundHaveAlpha) {
+  const Picture plain = render(kBunny), clear = render(kBunny + " --background none");
+  EXPECT_EQ(plain.channels, 3);
+  ASSERT_EQ(clear.channels, 4);
+  EXPECT_EQ(alpha_at(clear, 0, 0), 0);
+  EXPECT_EQ(alpha_at(clear, 60, 50), 255);
+  // Where the model is, both show the same.
+  for (std::size_t i = 0; i < plain.rgba.size(); i += 4)
+    if (clear.rgba[i + 3] == 255)
+      for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(clear.rgba[i + c], plain.rgba[i + c]);
+}
+
+TEST_F(ModelOptions, AlphaOfEdgesAndPanesIsTheCoveredShare) {
+  // Over any background B, colour * alpha + B (1 - alpha) is the picture with that background.
+  for (const std::string model : {kBunny + " --samples 4", kModels + "blended_window.gltf"}) {
+    const Picture clear = render(model + " --background none"),
+                  white = render(model + " --background '#ffffff'");
+    int partial = 0;
+    for (std::size_t i = 0; i < clear.rgba.size(); i += 4) {
+      const double alpha = clear.rgba[i + 3] / 255.0;
+      partial += alpha > 0 && alpha < 1 ? 1 : 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        ASSERT_NEAR(clear.rgba[i + c] * alpha + 255 * (1 - alpha), white.rgba[i + c], 2) << model << " " << i;
+    }
+    EXPECT_GT(partial, 100) << model;
+  }
+}
+
+TEST_F(ModelOptions, BackgroundsAreColours) {
+  for (const char* text : {"'#336699'", "0.2,0.4,0.6"}) {
+    const Picture picture = render(kBunny + " --background " + text);
+    EXPECT_EQ(picture.rgba[0], 0x33);
+    EXPECT_EQ(picture.rgba[1], 0x66);
+    EXPECT_EQ(picture.rgba[2], 0x99);
+  }
+  expect_one_error(kBunny + " --background blue", 2, "found \"blue\", expected none, #RRGGBB, or R,G,B");
+  expect_one_error(kBunny + " --background 0,0,2", 2, "found \"0,0,2\"");
+}
+
+TEST_F(ModelOptions, SamplesSmoothEdges) {
+  const Picture one = render(kBunny), four = render(kBunny + " --samples 4");
+  EXPECT_NE(one.rgba, four.rgba);
+  expect_one_error(kBunny + " --samples 3", 2, "--samples");
+}
+
+TEST_F(ModelOptions, WireframesLeaveFacesOpen) {
+  // A face whose edges alone are drawn shows the background.
+  write("box.obj", "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n");
+  const auto drawn = [](const Picture& picture) {
+    int count = 0;
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) count += picture.rgba[i + 3] > 0 ? 1 : 0;
+    return count;
+  };
+  const int faces = drawn(render("box.obj --background none"));
+  const int edges = drawn(render("box.obj --background none --wireframe"));
+  EXPECT_GT(edges, 100);
+  EXPECT_LT(edges, faces / 4);
+}
+
+TEST_F(ModelOptions, UpAxesTurnTheModel) {
+  // A model and the same one with its axes exchanged.
+  write("y.obj", "v 0 0 0\nv 2 0 0\nv 0 5 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 4 2\n");
+  write("z.obj", "v 0 0 0\nv 2 0 0\nv 0 0 5\nv 0 -1 0\nf 1 2 3\nf 1 3 4\nf 1 4 2\n");
+  write("down.obj", "v 0 0 0\nv 0 -2 0\nv -5 0 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 4 2\n");
+  const Picture expected = render("y.obj");
+  EXPECT_EQ(render("z.obj --up z").rgba, expected.rgba);
+  EXPECT_NE(render("z.obj").rgba, expected.rgba);
+  // x becomes -y: seen from the other side, (0, -2, 0) lies to the right again.
+  EXPECT_EQ(render("down.obj --up -x").rgba, expected.rgba);
+  expect_one_error("y.obj --up w", 2, "--up");
+}
+
+TEST_F(ModelOptions, TurntablesCloseTheCircle) {
+  const Result result = run("render " + kBunny + " --turntable 8 -o 't_{frame}.png' --size 60x45");
+  ASSERT_EQ(result.code, 0) << result.err;
+  std::vector<std::vector<std::uint8_t>> frames;
+  for (int f = 0; f < 8; ++f) frames.push_back(read_picture(path("t_000" + std::to_string(f) + ".png")).rgba);
+  EXPECT_FALSE(exists("t_0008.png"));
+  for (std::size_t f = 1; f < 8; ++f) EXPECT_NE(frames[f], frames[f - 1]) << f;
+  EXPECT_NE(frames[7], frames[0]) << "the last frame does not repeat the first";
+  // Half of the pictures of twice as many frames are the same.
+  ASSERT_EQ(run("render " + kBunny + " --turntable 4 -o 'h_{frame}.png' --size 60x45").code, 0);
+  for (std::size_t f = 0; f < 4; ++f)
+    EXPECT_EQ(read_picture(path("h_000" + std::to_string(f) + ".png")).rgba, frames[2 * f]) << f;
+  expect_one_error(kBunny + " --turntable 8 --frames 3 -o 'x_{frame}.png'", 2, "--turntable");
+  expect_one_error(kBunny + " --turntable 8 -o x.png", 1, "{frame}");
+}
+
+TEST_F(ModelOptions, ScenesTurnLikeModels) {
+  const Result result = run("render --turntable 2 -o 's_{frame}.png' --size 60x45");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(read_picture(path("s_0000.png")).rgba, read_picture(path("s_0001.png")).rgba);
+  EXPECT_EQ(read_picture(path("s_0000.png")).rgba, [&] {
+    EXPECT_EQ(run("render -o plain.png --size 60x45").code, 0);
+    return read_picture(path("plain.png")).rgba;
+  }());
+}
+
+TEST_F(ModelOptions, ModelsAndScenesComeFromStandardInput) {
+  write("m.obj", "v 0 0 0\nv 2 0 0\nv 0 5 0\nf 1 2 3\n");
+  write(
+      "s.json",
+      R"({"tessera": 1, "framebuffer": {"width": 120, "height": 90}, "frame": [{"clear": {"color": [1, 0, 0, 1]}}]})");
+  const Picture expected = render("m.obj");
+  EXPECT_EQ(render("- --input-format obj < " + path("m.obj")).rgba, expected.rgba);
+  EXPECT_EQ(render("- --input-format json < " + path("s.json")).rgba[0], 255);
+  expect_one_error("- -o x.png < /dev/null", 2, "--input-format");
+  expect_one_error("m.obj --input-format obj -o x.png", 2, "is for the input -");
+}
+
+}  // namespace
+}  // namespace tessera::model_options_program_test
+#endif
