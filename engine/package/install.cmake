@@ -79,6 +79,8 @@ if(TARGET tessera_cli AND NOT CMAKE_CROSSCOMPILING)
     DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions RENAME _tessera COMPONENT program)
   install(FILES ${built_dir}/completion.fish
     DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d RENAME tessera.fish COMPONENT program)
+  install(FILES ${CMAKE_CURRENT_LIST_DIR}/tessera.thumbnailer
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers COMPONENT program)
   install(TARGETS tessera_import LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT import NAMELINK_SKIP)
   install(TARGETS tessera_imageio LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT imageio NAMELINK_SKIP)
   foreach(component imageio import program)

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/program/imageio/picture.h"
@@ -149,6 +151,25 @@ TEST_F(ModelOptions, ModelsAndScenesComeFromStandardInput) {
   EXPECT_EQ(render("- --input-format json < " + path("s.json")).rgba[0], 255);
   expect_one_error("- -o x.png < /dev/null", 2, "--input-format");
   expect_one_error("m.obj --input-format obj -o x.png", 2, "is for the input -");
+}
+
+// File managers replace %i, %o and %s of the line by the model, the picture and its size.
+TEST_F(ModelOptions, ThumbnailersDrawModels) {
+  std::ifstream file(TESSERA_SOURCE_DIR "/engine/package/tessera.thumbnailer");
+  std::string arguments;
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("Exec=tessera ")) arguments = line.substr(13);
+  ASSERT_FALSE(arguments.empty());
+  for (const auto& [from, to] :
+       {std::pair("%i", kBunny), std::pair("%o", std::string("out.png")), std::pair("%s", std::string("64"))})
+    for (std::size_t at = 0; (at = arguments.find(from, at)) != std::string::npos; at += to.size())
+      arguments.replace(at, 2, to);
+  const Result result = run(arguments);
+  ASSERT_EQ(result.code, 0) << arguments << "\n" << result.err;
+  const Picture picture = read_picture(path("out.png"));
+  EXPECT_EQ(picture.width, 64);
+  EXPECT_EQ(picture.height, 64);
+  EXPECT_EQ(picture.channels, 4);
 }
 
 }  // namespace
