@@ -5,7 +5,6 @@
 #   tessera_import   module that contains assimp; loaded by the child process that reads a model
 #   tessera_cli      the program bin/tessera
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
-find_package(tinyobjloader CONFIG REQUIRED)
 find_package(meshoptimizer CONFIG REQUIRED)
 pkg_check_modules(DRACO REQUIRED IMPORTED_TARGET draco)
 find_path(TESSERA_TINYGLTF_INCLUDE tiny_gltf.h REQUIRED)  # the header alone: its CMake target links an implementation with image readers
@@ -39,7 +38,7 @@ target_include_directories(tessera_scene INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
 set_source_files_properties(${program_dir}/import/tinygltf_implementation.cpp PROPERTIES
   SKIP_UNITY_BUILD_INCLUSION ON COMPILE_OPTIONS -w)  # a library's code
 target_link_libraries(tessera_scene PRIVATE
-  tessera_options TBB::tbb nlohmann_json::nlohmann_json tinyobjloader::tinyobjloader
+  tessera_options TBB::tbb nlohmann_json::nlohmann_json
   meshoptimizer::meshoptimizer PkgConfig::DRACO ${CMAKE_DL_LIBS})
 
 

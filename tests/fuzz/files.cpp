@@ -21,10 +21,10 @@ void refuse_device_or_pipe(const std::string&) {}
 
 // Reads OBJ files as the real import_model() does, without a child process.
 Model import_model(const std::string& path, ModelUse use, const std::function<bool()>&) {
-  Model model = import_obj(path);
+  Model model = import_obj(path, use);
   if (use == ModelUse::display) {
-    if (model.mesh.normals.empty()) add_creased_normals(model.mesh);
-    orient_by_normals(model.mesh);
+    if (model.mesh.normals.empty()) add_creased_normals(model);
+    orient_by_normals(model);
   }
   const std::string bytes = to_bytes(model);
   std::optional<Model> received;

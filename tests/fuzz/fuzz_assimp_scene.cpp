@@ -15,8 +15,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const AssimpSceneCase from(bytes);
   std::optional<Model> model;
   if (error_of([&] { model = model_of(from.scene(), (kind & 1) == 0, (kind & 2) != 0); })) return 0;
-  add_creased_normals(model->mesh, (kind & 4) != 0 ? 0 : kCreaseDegrees);
-  orient_by_normals(model->mesh);
+  add_creased_normals(*model, (kind & 4) != 0 ? 0 : kCreaseDegrees);
+  orient_by_normals(*model);
   if (const auto error = error_of([&] { model_from_bytes(to_bytes(*model), "model"); }))
     finding("the imported scene is refused: " + *error);
   std::optional<Scene> scene;

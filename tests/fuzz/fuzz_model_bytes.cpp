@@ -14,8 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(to_bytes(*model) == bytes, "serialization changed the model");
   error_of([&] { render_small(model_scene(*model, "model", 24, 32)); });
   // The reading process holds the same model.
-  add_creased_normals(model->mesh);
-  orient_by_normals(model->mesh);
+  add_creased_normals(*model);
+  orient_by_normals(*model);
   error_of([&] { render_small(model_scene(*model, "model", 32, 24)); });
   return 0;
 }

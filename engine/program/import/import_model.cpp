@@ -40,9 +40,9 @@ std::string import_by_module(const std::string& path) {
   }
 }
 
-Model read_model(const std::string& path) {
+Model read_model(const std::string& path, ModelUse use) {
   const std::string extension = lower_case_extension(path);
-  if (extension == ".obj") return import_obj(path);
+  if (extension == ".obj") return import_obj(path, use);
   if (extension == ".gltf" || extension == ".glb") return import_gltf(path);
   return model_from_bytes(import_by_module(path), path);
 }
@@ -81,7 +81,7 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
                 (fs::is_directory(status) ? "a directory" : "not a regular file") + ", expected a model");
   if (!std::ifstream(path)) throw Error("cannot read \"" + path + "\": " + std::strerror(errno));
   const auto read = [&] {
-    Model model = read_model(path);
+    Model model = read_model(path, use);
     if (use == ModelUse::display) {
       keep_visible(path, model);
       decode_images(path, model);

@@ -17,7 +17,9 @@ inline constexpr int kMaxNodeDepth = 500;  ///< files whose nodes are nested dee
 
 /// An image of a material. Readers of models name files or give their bytes; decode_images() does the rest.
 struct ModelImage {
-  std::string name;     ///< a file relative to the model's folder, as the model names it; or any name
+  /// A file relative to the model's folder, as the model names it; with `encoded`, any name. Empty: white,
+  /// if there is an alpha_name.
+  std::string name;
   std::string encoded;  ///< bytes of an image file within the model; empty: read the file `name`
   /// A second image file whose luminance becomes the alpha (map_d of MTL); empty: none.
   std::string alpha_name;

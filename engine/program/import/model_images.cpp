@@ -57,10 +57,12 @@ std::uint8_t luminance(const std::uint8_t* rgb) {
   return static_cast<std::uint8_t>((299 * rgb[0] + 587 * rgb[1] + 114 * rgb[2] + 500) / 1000);
 }
 
+bool has_alpha_channel(const Picture& picture) { return picture.channels == 2 || picture.channels == 4; }
+
 /// Multiplies alpha by another picture, stretched to the size of the first one (nearest pixel): by its
 /// alpha if it has one, else by its luminance.
 void multiply_alpha(const Picture& alpha, Picture& picture) {
-  const bool has_alpha = alpha.channels == 2 || alpha.channels == 4;
+  const bool has_alpha = has_alpha_channel(alpha);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       const int from_x = static_cast<int>(std::int64_t{x} * alpha.width / picture.width);
@@ -76,10 +78,33 @@ void multiply_alpha(const Picture& alpha, Picture& picture) {
     }
 }
 
-void decode(const std::string& model_path, ModelImage& image) {
-  Picture picture =
-      image.encoded.empty() ? read_image(model_path, image.name) : decode_picture(image.encoded, image.name);
-  if (!image.alpha_name.empty()) multiply_alpha(read_image(model_path, image.alpha_name), picture);
+/// A missing alpha leaves the colours, with a warning.
+std::optional<Picture> read_alpha(const std::string& model_path, const ModelImage& image,
+                                  std::vector<std::string>& warnings) try {
+  if (image.alpha_name.empty()) return std::nullopt;
+  return read_image(model_path, image.alpha_name);
+} catch (const Error& error) {
+  if (image.name.empty() && image.encoded.empty()) throw;
+  warnings.push_back(model_path + ": a texture's alpha is left out: " + error.what());
+  return std::nullopt;
+}
+
+/// The colours of an image; without a file or bytes, white of the size of `alpha`.
+Picture read_colors(const std::string& model_path, const ModelImage& image,
+                    const std::optional<Picture>& alpha) {
+  if (!image.encoded.empty()) return decode_picture(image.encoded, image.name);
+  if (!image.name.empty() || !alpha) return read_image(model_path, image.name);
+  Picture white(alpha->width, alpha->height);
+  std::ranges::fill(white.rgba, std::uint8_t{255});
+  return white;
+}
+
+void decode(const std::string& model_path, ModelImage& image, std::vector<std::string>& warnings) {
+  const std::optional<Picture> alpha = read_alpha(model_path, image, warnings);
+  Picture picture = read_colors(model_path, image, alpha);
+  // MTL files may name one file twice, for its colours and for its alpha.
+  const bool is_own_alpha = image.alpha_name == image.name && has_alpha_channel(picture);
+  if (alpha && !is_own_alpha) multiply_alpha(*alpha, picture);
   image.encoded.clear();
   image.encoded.shrink_to_fit();
   image.width = picture.width;
@@ -118,7 +143,7 @@ void decode_images(const std::string& model_path, Model& model) {
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     if (!image_is_used[i] || !model.images[i].pixels.empty()) continue;
     try {
-      decode(model_path, model.images[i]);
+      decode(model_path, model.images[i], model.warnings);
     } catch (const Error& error) {
       image_is_used[i] = false;
       model.warnings.push_back(model_path + ": a texture is left out: " + error.what());

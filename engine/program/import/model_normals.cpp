@@ -45,13 +45,12 @@ Double3 unit(const Double3& n) {
                                              : Double3{};
 }
 
-bool is_missing(const Float3& normal) {
-  const bool is_zero = !(normal[0] != 0 || normal[1] != 0 || normal[2] != 0);
-  return is_zero || !std::isfinite(normal[0] + normal[1] + normal[2]);
+std::uint32_t group_of(std::span<const std::uint32_t> groups, std::uint32_t corner) {
+  return groups.empty() ? 0 : groups[corner / 3];
 }
 
-/// Sorts corners by position. Positions with NaN components come last.
-std::vector<std::uint32_t> corners_by_position(const MeshData& mesh) {
+/// Sorts corners by position and group. Positions with NaN components come last.
+std::vector<std::uint32_t> sorted_corners(const MeshData& mesh, std::span<const std::uint32_t> groups) {
   std::vector<std::uint32_t> corners(mesh.indices.size() / 3 * 3);
   std::iota(corners.begin(), corners.end(), 0u);
   const auto key = [&](std::uint32_t corner) {
@@ -63,7 +62,9 @@ std::vector<std::uint32_t> corners_by_position(const MeshData& mesh) {
   std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
     const Float3 p = key(a);
     const Float3 q = key(b);
-    return p != q ? p < q : a < b;
+    if (p != q) return p < q;
+    const std::uint32_t group_a = group_of(groups, a), group_b = group_of(groups, b);
+    return group_a != group_b ? group_a < group_b : a < b;
   });
   return corners;
 }
@@ -105,42 +106,71 @@ class VertexSplitter {
   std::map<std::pair<std::uint32_t, Float3>, std::uint32_t> copies_;
 };
 
+/// Normals of all triangles of a mesh.
+struct FaceNormals {
+  std::vector<Double3> areas;   // length twice the triangle's area
+  std::vector<double> lengths;  // lengths of `areas`
+  std::vector<Double3> units;
+
+  explicit FaceNormals(const MeshData& mesh) {
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      areas.push_back(face_normal(mesh, i));
+      lengths.push_back(std::sqrt(dot(areas.back(), areas.back())));
+      units.push_back(unit(areas.back()));
+    }
+  }
+
+  /// The mean over those of the corners' triangles that belong; null if they cancel out.
+  template <class Belongs>
+  Double3 mean(std::span<const std::uint32_t> corners, const Belongs& belongs) const {
+    Double3 sum{};
+    double length = 0;
+    for (const std::uint32_t corner : corners)
+      if (const std::uint32_t face = corner / 3; belongs(face)) {
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += areas[face][k];
+        length += lengths[face];
+      }
+    constexpr double kMinShare = 1e-9;  // below it, the sum is made of rounding errors
+    return std::sqrt(dot(sum, sum)) > kMinShare * length ? unit(sum) : Double3{};
+  }
+};
+
+Float3 rounded(const Double3& n) {
+  return {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
+}
+
 }  // namespace
 
-void add_creased_normals(MeshData& mesh, double crease_degrees) {
+bool is_missing_normal(const float* normal) {
+  const bool is_zero = !(normal[0] != 0 || normal[1] != 0 || normal[2] != 0);
+  return is_zero || !std::isfinite(normal[0] + normal[1] + normal[2]);
+}
+
+void add_creased_normals(MeshData& mesh, double crease_degrees, std::span<const std::uint32_t> groups) {
   mesh.normals.resize(mesh.positions.size());
   std::vector<bool> missing;
-  for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex)
-    missing.push_back(is_missing(float3(mesh.normals, vertex)));
-  std::vector<Double3> normals;  // per triangle, length twice its area
-  std::vector<Double3> units;    // per triangle, normalized
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    normals.push_back(face_normal(mesh, i));
-    units.push_back(unit(normals.back()));
-  }
+  for (std::size_t vertex = 0; vertex < mesh.vertex_count(); ++vertex)
+    missing.push_back(is_missing_normal(&mesh.normals[3 * vertex]));
+  const FaceNormals faces(mesh);
   // The tolerance keeps triangles of a plane together although their positions are rounded.
   const double min_cosine = sin_cos_degrees(crease_degrees).cosine - 1e-9;
-  const std::vector<std::uint32_t> corners = corners_by_position(mesh);
+  const std::vector<std::uint32_t> corners = sorted_corners(mesh, groups);
   VertexSplitter splitter(mesh);
   for (std::size_t first = 0, end = 0; first < corners.size(); first = end) {
     const Float3 here = float3(mesh.positions, mesh.indices[corners[first]]);
-    for (end = first + 1; end < corners.size() && float3(mesh.positions, mesh.indices[corners[end]]) == here;)
+    const std::uint32_t group = group_of(groups, corners[first]);
+    for (end = first + 1; end < corners.size() && group_of(groups, corners[end]) == group &&
+                          float3(mesh.positions, mesh.indices[corners[end]]) == here;)
       ++end;
-    const auto mean = [&](auto belongs) {
-      Double3 sum{};
-      for (std::size_t j = first; j < end; ++j)
-        if (const std::uint32_t face = corners[j] / 3; belongs(face))
-          for (std::size_t k = 0; k < 3; ++k) sum[k] += normals[face][k];
-      const Double3 n = unit(sum);
-      return Float3{static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
-    };
-    const bool is_compared = end - first <= kMaxComparedTriangles;
-    const Float3 shared_normal = is_compared ? Float3{} : mean([](std::uint32_t) { return true; });
-    for (std::size_t i = first; i < end; ++i) {
-      if (!missing[mesh.indices[corners[i]]]) continue;
-      const Double3& face_unit = units[corners[i] / 3];
-      const auto is_smooth = [&](std::uint32_t face) { return dot(units[face], face_unit) >= min_cosine; };
-      splitter.set(corners[i], is_compared ? mean(is_smooth) : shared_normal);
+    const std::span<const std::uint32_t> fan = std::span(corners).subspan(first, end - first);
+    const bool is_compared = group == 0 && fan.size() <= kMaxComparedTriangles;
+    const Double3 shared = is_compared ? Double3{} : faces.mean(fan, [](std::uint32_t) { return true; });
+    for (const std::uint32_t corner : fan) {
+      if (!missing[mesh.indices[corner]]) continue;
+      const Double3& own = faces.units[corner / 3];
+      const auto is_smooth = [&](std::uint32_t face) { return dot(faces.units[face], own) >= min_cosine; };
+      const Double3 normal = is_compared ? faces.mean(fan, is_smooth) : shared;
+      splitter.set(corner, rounded(normal == Double3{} ? own : normal));
     }
   }
 }

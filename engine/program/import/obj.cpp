@@ -1,267 +1,281 @@
-// Uses tinyobjloader on text that obj_text.h has rewritten and obj_check.h has checked.
+#include "engine/program/import/obj.h"
+
 #include <algorithm>
-#include <filesystem>
+#include <cmath>
 #include <map>
-#include <sstream>
-#include <unordered_map>
+#include <optional>
+#include <span>
 #include <utility>
 
-#include <tiny_obj_loader.h>
-
-#include "engine/program/import/obj.h"
-#include "engine/program/import/obj_check.h"
-#include "engine/program/import/obj_text.h"
+#include "engine/program/import/model_normals.h"
+#include "engine/program/import/model_origin.h"
+#include "engine/program/import/obj_file.h"
+#include "engine/program/import/obj_materials.h"
+#include "engine/program/import/obj_vertices.h"
+#include "engine/program/import/polygon_split.h"
 #include "engine/program/scene/text_file.h"
 
 namespace tessera::program {
 namespace {
 
-/// Reads material files, relative to the folder of the model. A missing one is a warning.
-class MaterialFiles : public tinyobj::MaterialReader {
- public:
-  explicit MaterialFiles(std::string folder) : folder_(std::move(folder)) {}
+using Materials = std::vector<std::optional<ObjMaterial>>;
 
-  /// Returns the keys that the MTL file gives for `material`.
-  MtlKeys given(const std::string& material) const {
-    const auto found = given_.find(material);
-    return found == given_.end() ? MtlKeys{} : found->second;
-  }
-
-  /// `names` is one name, which may hold spaces, or several names separated by spaces.
-  bool operator()(const std::string& names, std::vector<tinyobj::material_t>* materials,
-                  std::map<std::string, int>* by_name, std::string* warning, std::string* error) override {
-    const auto paths = possible_paths(names);
-    for (const std::string& path : paths) {
-      std::error_code invalid_name;  // such as one that is too long
-      if (path == names || std::filesystem::exists(std::filesystem::path(folder_) / path, invalid_name))
-        return read(path, materials, by_name, warning, error);
-    }
-    bool is_read = false;
-    std::istringstream several(paths[0]);
-    for (std::string name; several >> name;) is_read |= read(name, materials, by_name, warning, error);
-    return is_read;
-  }
-
- private:
-  bool read(const std::string& name, std::vector<tinyobj::material_t>* materials,
-            std::map<std::string, int>* by_name, std::string* warning, std::string* error) {
-    const std::string path = (std::filesystem::path(folder_) / name).string();
-    std::string text;
-    try {
-      refuse_device_or_pipe(path);
-      text = read_text_file(path);
-    } catch (const Error& missing) {
-      *warning += std::string(missing.what()) + "\n";
-      return false;
-    }
-    std::vector<std::string> warnings;
-    text = normalized_mtl(text, path, warnings);
-    given_.merge(check_mtl(text, path));
-    std::istringstream stream(text);
-    std::string more;  // LoadMtl overwrites its warnings
-    tinyobj::LoadMtl(by_name, materials, &stream, &more, error);
-    for (const std::string& line : warnings) *warning += line + "\n";
-    *warning += more;
-    return true;
-  }
-
-  std::string folder_;
-  std::map<std::string, MtlKeys, std::less<>> given_;
-};
-
-/// Replaces the black that tinyobjloader leaves for colours that the file does not give: diffuse by the
-/// default, ambient by the diffuse colour. Materials with illum below 2 have no highlight.
-void fill_in(tinyobj::material_t& material, const MtlKeys& given, std::string& warning) {
-  const Color diffuse = Material{}.diffuse;
-  const float standard[3] = {diffuse.r, diffuse.g, diffuse.b};
-  if (!given.diffuse) std::copy_n(standard, 3, material.diffuse);
-  if (!given.ambient) std::copy_n(material.diffuse, 3, material.ambient);
-  if (given.illum && material.illum < 2) std::fill_n(material.specular, 3, 0.0f);
-  material.name = with_spaces(material.name);
-  if (given.texture)
-    warning +=
-        "map_Kd of material \"" + material.name + "\" is left out: textures of models are not supported\n";
-  if (given.dissolve && material.dissolve < 1)
-    warning += "d of material \"" + material.name + "\" is left out: transparency is not supported\n";
+/// Makes a point of each vertex of a file without elements.
+void add_points_of_lone_vertices(ObjFile& file) {
+  const auto count = static_cast<std::uint32_t>(file.positions.size());
+  if (!file.elements.empty() || count == 0) return;
+  for (std::uint32_t i = 0; i < count; ++i) file.corners.push_back({.position = i});
+  file.elements.push_back({.primitive = Primitive::points, .corner_count = count});
 }
 
-struct Obj {
-  tinyobj::attrib_t attributes;
-  std::vector<tinyobj::shape_t> shapes;
-  std::vector<tinyobj::material_t> materials;
-  std::vector<std::string> warnings;
-};
-
-/// Splits the text into lines without repetitions, at most 20.
-std::vector<std::string> warning_lines(const std::string& text, const std::string& path) {
-  constexpr std::size_t kMaxWarnings = 20;
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line) && lines.size() < kMaxWarnings;) {
-    const std::string warning = path + ": " + line;
-    if (!line.empty() && std::find(lines.begin(), lines.end(), warning) == lines.end())
-      lines.push_back(warning);
+/// Forgets normals of length 0, and returns whether a corner of a face has another.
+bool keep_usable_normals(ObjFile& file) {
+  for (ObjCorner& corner : file.corners)
+    if (corner.normal >= 0 && is_missing_normal(&file.normals[3 * static_cast<std::size_t>(corner.normal)]))
+      corner.normal = kNoObjIndex;
+  std::size_t first = 0;
+  for (const ObjElement& element : file.elements) {
+    for (std::size_t i = first; i < first + element.corner_count; ++i)
+      if (element.primitive == Primitive::polygon && file.corners[i].normal >= 0) return true;
+    first += element.corner_count;
   }
-  return lines;
+  return false;
 }
 
-Obj load(const std::string& path) {
-  const std::string text = normalized_obj(read_text_file(path));
-  check_obj(text, path);
-  Obj obj;
-  MaterialFiles material_files(std::filesystem::path(path).parent_path().string());
-  std::istringstream stream(text);
-  std::string warning;
-  std::string error;
-  constexpr bool kTriangulate = true;
-  constexpr bool kWhiteIfUncolored = false;
-  if (!tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error, &stream,
-                        &material_files, kTriangulate, kWhiteIfUncolored)) {
-    error.erase(std::remove(error.begin(), error.end(), '\n'), error.end());
-    throw Error(path + ": " + (error.empty() ? "is not an OBJ file" : error));
-  }
-  for (tinyobj::material_t& material : obj.materials)
-    fill_in(material, material_files.given(material.name), warning);
-  obj.warnings = warning_lines(warning, path);
-  return obj;
+/// As origin_for(), for the positions that elements use.
+Vec3 origin_of(const ObjFile& file) {
+  std::vector<bool> is_used(file.positions.size(), false);
+  for (const ObjCorner& corner : file.corners) is_used[corner.position] = true;
+  std::vector<std::array<double, 3>> used;
+  for (std::size_t i = 0; i < is_used.size(); ++i)
+    if (is_used[i]) used.push_back(file.positions[i]);
+  return used.empty() ? Vec3{} : origin_for(used);
 }
 
-/// Attributes that every corner of a file has.
-struct CornerAttributes {
-  bool normals = false;
-  bool texcoords = false;
-};
+std::vector<float> floats(const std::vector<std::array<double, 3>>& positions, const Vec3& origin) {
+  std::vector<float> numbers;
+  append_relative(positions, origin, numbers);
+  return numbers;
+}
 
-/// Turns corners (position, normal, texture coordinates) into vertices of one mesh.
-class VertexPool {
- public:
-  VertexPool(const tinyobj::attrib_t& attributes, CornerAttributes given, MeshData& mesh)
-      : attributes_(attributes),
-        has_normals_(given.normals),
-        has_texcoords_(given.texcoords),
-        has_colors_(attributes.colors.size() == attributes.vertices.size()),
-        mesh_(mesh) {}
-
-  std::uint32_t vertex(tinyobj::index_t corner) {
-    const auto position = static_cast<std::uint32_t>(corner.vertex_index);
-    const auto normal = static_cast<std::uint32_t>(has_normals_ ? corner.normal_index : 0);
-    const auto texcoord = static_cast<std::uint32_t>(has_texcoords_ ? corner.texcoord_index : 0);
-    const auto [entry, is_new] = vertices_.try_emplace({std::uint64_t{position} << 32 | normal, texcoord},
-                                                       static_cast<std::uint32_t>(vertices_.size()));
-    if (is_new) {
-      if (has_texcoords_)
-        for (std::size_t k = 0; k < 2; ++k)
-          mesh_.texcoords.push_back(attributes_.texcoords.at(2 * std::size_t{texcoord} + k));
-      append(attributes_.vertices, position, mesh_.positions);
-      if (has_normals_) append(attributes_.normals, normal, mesh_.normals);
-      if (has_colors_) {
-        append(attributes_.colors, position, mesh_.colors);
-        mesh_.colors.push_back(1);
-      }
-    }
-    return entry->second;
-  }
-
- private:
-  static void append(const std::vector<tinyobj::real_t>& from, std::size_t index, std::vector<float>& to) {
-    to.insert(to.end(), {from.at(3 * index), from.at(3 * index + 1), from.at(3 * index + 2)});
-  }
-
-  using Key = std::pair<std::uint64_t, std::uint32_t>;  // (position << 32 | normal, texture coordinates)
-  struct Hash {
-    std::size_t operator()(const Key& key) const {
-      return static_cast<std::size_t>((key.first ^ key.second * 0x9e3779b97f4a7c15u) * 0xff51afd7ed558ccdu >>
-                                      16);
-    }
+/// Makes all materials opaque if no element would be visible: some programs write d 0 for opaque ones.
+void show_invisible(const ObjFile& file, const std::string& path, Materials& materials,
+                    std::vector<std::string>& warnings) {
+  const auto is_invisible = [&](const ObjElement& element) {
+    if (element.material < 0) return false;
+    const auto& material = materials[static_cast<std::size_t>(element.material)];
+    return material && material->material.diffuse.a == 0;
   };
-
-  const tinyobj::attrib_t& attributes_;
-  bool has_normals_;
-  bool has_texcoords_;
-  bool has_colors_;
-  MeshData& mesh_;
-  std::unordered_map<Key, std::uint32_t, Hash> vertices_;
-};
-
-Material material_from_mtl(const tinyobj::material_t& from, std::vector<std::string>& warnings,
-                           const std::string& path) {
-  const auto color = [](const tinyobj::real_t(&rgb)[3], float alpha) {
-    return Color{rgb[0], rgb[1], rgb[2], alpha};
-  };
-  constexpr float kMaxShininess = 16384;
-  if (from.shininess < 0 || from.shininess > kMaxShininess)
-    warnings.push_back(path + ": Ns of material \"" + from.name + "\" is " + std::to_string(from.shininess) +
-                       ", clamped to 0 .. 16384");
-  return {.ambient = color(from.ambient, 1),
-          .diffuse = color(from.diffuse, from.dissolve),
-          .specular = color(from.specular, 1),
-          .emission = color(from.emission, 1),
-          .shininess = std::clamp(from.shininess, 0.0f, kMaxShininess)};
+  if (file.elements.empty() || !std::ranges::all_of(file.elements, is_invisible)) return;
+  for (auto& material : materials) {
+    if (!material) continue;
+    material->material.diffuse.a = 1;
+    material->alpha = ModelAlpha::opaque;
+  }
+  warnings.push_back(path + ": every material is invisible (d 0); all are drawn opaque");
 }
 
-/// @throws Error if the file has no corners
-CornerAttributes shared_attributes(const Obj& obj, const std::string& path,
-                                   std::vector<std::string>& warnings) {
-  std::size_t corners = 0;
-  std::size_t corners_with_normal = 0;
-  std::size_t corners_with_texcoord = 0;
-  const auto texcoords = static_cast<std::int64_t>(obj.attributes.texcoords.size() / 2);
-  for (const tinyobj::shape_t& shape : obj.shapes)
-    for (const tinyobj::index_t& corner : shape.mesh.indices) {
-      ++corners;
-      corners_with_normal += corner.normal_index >= 0 ? 1 : 0;
-      corners_with_texcoord += corner.texcoord_index >= 0 && corner.texcoord_index < texcoords ? 1 : 0;
-    }
-  if (corners == 0) throw Error(path + ": holds no triangle");
-  const CornerAttributes shared{.normals = corners_with_normal == corners,
-                                .texcoords = corners_with_texcoord == corners};
-  if (!shared.normals && corners_with_normal > 0)
-    warnings.push_back(path + ": only some corners have normals; all normals are generated");
-  if (!shared.texcoords && corners_with_texcoord > 0)
-    warnings.push_back(path + ": only some corners have texture coordinates; none are used");
-  return shared;
-}
-
-/// Triangles of one material.
+/// Elements of one material and primitive.
 struct Group {
-  int material_id = -1;  ///< index in Obj::materials; -1: none
+  int material = -1;  ///< index into Materials; -1: none
   std::vector<std::uint32_t> indices;
+  std::vector<std::uint32_t> smoothing_groups;  ///< one per triangle
+  bool has_color = false;                       ///< some vertex has a colour
+  bool lacks_texcoords = false;                 ///< some corner has none
 };
 
-/// Groups triangles by material, in the order of first use.
-std::vector<Group> grouped_by_material(const Obj& obj, VertexPool& pool) {
-  std::vector<Group> groups;
-  std::map<int, std::size_t> group_of;
-  for (const tinyobj::shape_t& shape : obj.shapes)
-    for (std::size_t face = 0; face < shape.mesh.material_ids.size(); ++face) {
-      const int material_id = shape.mesh.material_ids[face];
-      const auto [group, is_new] = group_of.try_emplace(material_id, groups.size());
-      if (is_new) groups.push_back({material_id, {}});
-      for (std::size_t k = 0; k < 3; ++k)
-        groups[group->second].indices.push_back(pool.vertex(shape.mesh.indices[3 * face + k]));
+class Builder {
+ public:
+  Builder(ObjFile& file, const Materials& materials, ModelUse use, Model& model)
+      : file_(file),
+        materials_(materials),
+        use_(use),
+        model_(model),
+        positions_(floats(file.positions, model.origin)),
+        attributes_(attributes()),
+        vertices_(file, positions_, attributes_, model.mesh) {}
+
+  void add_triangles() {
+    std::vector<Group> groups = grouped(Primitive::polygon);
+    std::vector<std::uint32_t> smoothing_groups;
+    for (Group& group : groups)
+      smoothing_groups.insert(smoothing_groups.end(), group.smoothing_groups.begin(),
+                              group.smoothing_groups.end());
+    for (Group& group : groups) add_part(std::move(group), Primitive::triangles);
+    if (attributes_.normals && lacks_normals())
+      add_creased_normals(model_.mesh, kCreaseDegrees,
+                          file_.has_smoothing_groups ? smoothing_groups : std::span<const std::uint32_t>());
+  }
+
+  void add_lines() {
+    for (Group& group : grouped(Primitive::line_strip)) add_part(std::move(group), Primitive::lines);
+  }
+  void add_points() {
+    for (Group& group : grouped(Primitive::points)) add_part(std::move(group), Primitive::points);
+  }
+
+  /// Warns of corners without texture coordinates that may need some.
+  void warn_of_texcoords(const std::string& path) {
+    for (std::size_t i = 0; i < model_.parts.size() && use_ == ModelUse::display; ++i)
+      if (model_.parts[i].texture && lacks_texcoords_[i])
+        model_.warnings.push_back(
+            path + ": material \"" + model_.parts[i].material_name +
+            "\" has a texture, but some corners have no texture coordinates; they get 0, 0");
+    if (use_ == ModelUse::mesh && attributes_.texcoords && std::ranges::count(lacks_texcoords_, true) > 0)
+      model_.warnings.push_back(path + ": only some corners have texture coordinates; the others get 0, 0");
+  }
+
+ private:
+  ObjAttributes attributes() {
+    const bool has_faces = std::ranges::any_of(
+        file_.elements, [](const ObjElement& element) { return element.primitive == Primitive::polygon; });
+    const bool has_normals = keep_usable_normals(file_);
+    const bool has_texture =
+        std::ranges::any_of(materials_, [](const auto& material) { return material && material->texture; });
+    const bool has_texcoords =
+        std::ranges::any_of(file_.corners, [](const ObjCorner& corner) { return corner.texcoord >= 0; });
+    const bool is_displayed = use_ == ModelUse::display;
+    return {.normals = has_faces && (has_normals || is_displayed),
+            .texcoords = has_texcoords || (has_texture && is_displayed),
+            .colors = !file_.colors.empty()};
+  }
+
+  bool lacks_normals() const {
+    return std::ranges::any_of(model_.mesh.indices, [&](std::uint32_t vertex) {
+      return is_missing_normal(&model_.mesh.normals[3 * std::size_t{vertex}]);
+    });
+  }
+
+  /// Groups elements by material, in the order of first use. Undefined materials count as none.
+  std::vector<Group> grouped(Primitive primitive) {
+    std::vector<Group> groups;
+    std::map<int, std::size_t> group_of;
+    std::size_t first = 0;
+    for (const ObjElement& element : file_.elements) {
+      const std::span<ObjCorner> corners = std::span(file_.corners).subspan(first, element.corner_count);
+      first += element.corner_count;
+      if (element.primitive != primitive) continue;
+      const bool is_defined =
+          element.material >= 0 && materials_[static_cast<std::size_t>(element.material)].has_value();
+      const int material = is_defined ? element.material : -1;
+      const auto [group, is_new] = group_of.try_emplace(material, groups.size());
+      if (is_new) groups.emplace_back().material = material;
+      add_element(element, corners, groups[group->second]);
     }
-  return groups;
-}
+    return groups;
+  }
+
+  void add_element(const ObjElement& element, std::span<ObjCorner> corners, Group& group) {
+    for (const ObjCorner& corner : corners) {
+      group.has_color |= !file_.has_color.empty() && file_.has_color[corner.position];
+      group.lacks_texcoords |= corner.texcoord < 0;
+    }
+    const ObjVertexLook look = look_of(group.material);
+    const auto add = [&](std::size_t i) { group.indices.push_back(vertices_.index(corners[i], look)); };
+    if (element.primitive == Primitive::polygon) {
+      if (file_.has_smoothing_groups && element.smoothing_group == 0) make_flat(corners);
+      if (corners.size() == 3) add(0), add(1), add(2);
+      else
+        for (const auto& triangle : split_polygon(positions_of(corners)))
+          for (const std::uint32_t i : triangle) add(i);
+      if (file_.has_smoothing_groups)
+        group.smoothing_groups.resize(group.indices.size() / 3, element.smoothing_group);
+    } else if (element.primitive == Primitive::line_strip) {
+      for (std::size_t i = 1; i < corners.size(); ++i) add(i - 1), add(i);
+    } else {
+      for (std::size_t i = 0; i < corners.size(); ++i) add(i);
+    }
+  }
+
+  /// Gives the corners that lack a normal that of their face.
+  void make_flat(std::span<ObjCorner> corners) {
+    const auto lacks_normal = [](const ObjCorner& corner) { return corner.normal < 0; };
+    if (!attributes_.normals || std::ranges::none_of(corners, lacks_normal)) return;
+    const std::array<double, 3> normal = polygon_normal(positions_of(corners));
+    const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    if (!(length > 0) || !std::isfinite(length)) return;
+    const auto index = static_cast<std::int32_t>(file_.normals.size() / 3);
+    for (const double x : normal) file_.normals.push_back(static_cast<float>(x / length));
+    for (ObjCorner& corner : corners)
+      if (lacks_normal(corner)) corner.normal = index;
+  }
+
+  /// Valid until the next call.
+  std::span<const std::array<float, 3>> positions_of(std::span<const ObjCorner> corners) {
+    corner_positions_.clear();
+    for (const ObjCorner& corner : corners) {
+      const float* const p = &positions_[3 * std::size_t{corner.position}];
+      corner_positions_.push_back({p[0], p[1], p[2]});
+    }
+    return corner_positions_;
+  }
+
+  ObjVertexLook look_of(int number) const {
+    if (number < 0 || use_ == ModelUse::mesh) return {};
+    const ObjMaterial& material = *materials_[static_cast<std::size_t>(number)];
+    const Color& diffuse = material.material.diffuse;
+    const bool changes_color =
+        attributes_.colors && (diffuse.r != 1 || diffuse.g != 1 || diffuse.b != 1 || diffuse.a != 1);
+    const bool changes_texcoords = material.texcoord_scale != std::array<float, 2>{1, 1} ||
+                                   material.texcoord_offset != std::array<float, 2>{0, 0};
+    if (!changes_color && !changes_texcoords) return {};
+    return {.number = static_cast<std::uint32_t>(number) + 1,
+            .color_factor = {diffuse.r, diffuse.g, diffuse.b, diffuse.a},
+            .texcoord_scale = material.texcoord_scale,
+            .texcoord_offset = material.texcoord_offset};
+  }
+
+  void add_part(Group&& group, Primitive primitive) {
+    ModelPart part{.material_name = {},
+                   .material = {},
+                   .primitive = primitive,
+                   .first_index = model_.mesh.indices.size(),
+                   .index_count = group.indices.size(),
+                   .uses_colors = group.has_color,
+                   .is_unlit = primitive != Primitive::triangles};
+    if (group.material >= 0) {
+      const ObjMaterial& material = *materials_[static_cast<std::size_t>(group.material)];
+      part.material_name = material.name;
+      part.material = material.material;
+      part.texture = material.texture;
+      part.alpha = material.alpha;
+    }
+    model_.mesh.indices.insert(model_.mesh.indices.end(), group.indices.begin(), group.indices.end());
+    model_.parts.push_back(std::move(part));
+    lacks_texcoords_.push_back(group.lacks_texcoords);
+  }
+
+  ObjFile& file_;
+  const Materials& materials_;
+  ModelUse use_;
+  Model& model_;
+  std::vector<float> positions_;
+  ObjAttributes attributes_;
+  ObjVertices vertices_;
+  std::vector<std::array<float, 3>> corner_positions_;
+  std::vector<bool> lacks_texcoords_;  // one per part
+};
 
 }  // namespace
 
-Model import_obj(const std::string& path) {
-  Obj obj = load(path);
-  Model model{.warnings = std::move(obj.warnings)};
-  VertexPool pool(obj.attributes, shared_attributes(obj, path, model.warnings), model.mesh);
-  for (const auto& [id, indices] : grouped_by_material(obj, pool)) {
-    ModelPart part{.material_name = {},
-                   .material = {},
-                   .first_index = model.mesh.indices.size(),
-                   .index_count = indices.size(),
-                   .uses_colors = id < 0 && !model.mesh.colors.empty()};
-    if (id >= 0) {
-      part.material_name = obj.materials.at(static_cast<std::size_t>(id)).name;
-      part.material = material_from_mtl(obj.materials[static_cast<std::size_t>(id)], model.warnings, path);
-    }
-    model.parts.push_back(std::move(part));
-    model.mesh.indices.insert(model.mesh.indices.end(), indices.begin(), indices.end());
+Model import_obj(const std::string& path, ModelUse use) {
+  const bool is_displayed = use == ModelUse::display;
+  ObjFile file = parse_obj(read_text_file(path), path);
+  Model model;
+  Materials materials = obj_materials(file, path, model);
+  if (is_displayed) {
+    add_points_of_lone_vertices(file);
+    show_invisible(file, path, materials, model.warnings);
+    model.origin = origin_of(file);
   }
+  Builder builder(file, materials, use, model);
+  builder.add_triangles();
+  if (is_displayed) {
+    builder.add_lines();
+    builder.add_points();
+  }
+  if (model.parts.empty()) throw Error(path + (is_displayed ? ": holds no vertex" : ": holds no triangle"));
+  builder.warn_of_texcoords(path);
   return model;
 }
 

@@ -97,14 +97,14 @@ TEST(CreasedNormals, HandlesLargeFansInTime) {
 }
 
 TEST(WindByNormals, ReversesTrianglesAgainstTheirNormals) {
-  MeshData mesh = cube();
+  Model model{.mesh = cube()};
+  MeshData& mesh = model.mesh;
+  model.parts.push_back({.index_count = mesh.indices.size()});
   add_creased_normals(mesh);
   const std::vector<std::uint32_t> right = mesh.indices;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 6)
     std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
-  Model model{.mesh = mesh, .parts = {{.index_count = mesh.indices.size()}}};
   orient_by_normals(model);
-  mesh = model.mesh;
   EXPECT_EQ(mesh.indices, right);
 }
 
