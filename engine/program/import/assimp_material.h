@@ -23,7 +23,7 @@ Material material_of(const aiMaterial& from);
 /// The image that supplies the colours of a material, and how its coordinates become those of the texture.
 struct ColorTexture {
   std::string name;      ///< a file, or the name of an embedded image
-  unsigned channel = 0;  ///< which texture coordinates of the mesh
+  unsigned channel = 0;  ///< number of the mesh's set of texture coordinates
   TextureSampler sampler;
   aiUVTransform transform;  ///< scaling and rotation around (0.5, 0.5), then translation
 };

@@ -206,7 +206,7 @@ class Converter {
   std::vector<bool> camera_used_;
   std::vector<bool> light_used_;
   std::vector<Material> materials_;
-  std::vector<std::optional<ColorTexture>> textures_;  // of the materials
+  std::vector<std::optional<ColorTexture>> textures_;  // one per material
   std::map<std::string, std::size_t> image_numbers_;
   // Vertex indices by kind of primitive (0: triangles, 1: lines, 2: points) and material.
   std::map<std::pair<unsigned, unsigned>, std::vector<std::uint32_t>> by_material_;

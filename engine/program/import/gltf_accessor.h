@@ -11,7 +11,7 @@
 
 namespace tessera::program {
 
-/// Elements of an accessor as doubles, one after the other.
+/// Elements of an accessor as doubles, in order.
 struct GltfValues {
   std::size_t components = 0;  ///< per element; 0: no elements
   std::vector<double> values;

@@ -15,10 +15,10 @@ namespace tessera::program {
 /// A primitive of a mesh in its bind pose, with morph targets applied.
 struct GltfPrimitive {
   Primitive primitive = Primitive::triangles;             ///< triangles, lines or points
-  std::vector<std::uint32_t> indices;                     ///< of a list: strips, fans and loops are split
+  std::vector<std::uint32_t> indices;                     ///< a list: strips, fans and loops are split
   std::vector<std::array<double, 3>> positions, normals;  ///< normals: empty if there are none
   std::vector<std::array<double, 4>> colors;              ///< linear; empty if there are none
-  std::vector<std::array<double, 2>> texcoords;           ///< of the material's set, t downwards; or empty
+  std::vector<std::array<double, 2>> texcoords;           ///< the material's set, t downwards; or empty
   GltfValues joints, weights;                             ///< four or more influences per vertex; or empty
 };
 

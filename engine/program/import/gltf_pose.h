@@ -11,7 +11,7 @@
 
 namespace tessera::program {
 
-/// Columns of a 4 x 4 matrix, one after the other, as glTF stores them.
+/// Columns of a 4 x 4 matrix, in order, as glTF stores them.
 using GltfMatrix = std::array<double, 16>;
 
 GltfMatrix product(const GltfMatrix& left, const GltfMatrix& right);

@@ -76,7 +76,8 @@ struct Model {
   std::vector<ModelPart> parts;
   std::vector<ModelImage> images;
   std::vector<ModelTexture> textures;
-  /// What was subtracted from the coordinates of the file, so that floats are precise far from the origin.
+  /// Point that was subtracted from the coordinates of the file, so that floats are precise far from the
+  /// origin.
   Vec3 origin{};
   std::vector<std::string> warnings;  ///< one line each, such as a missing material file
   std::vector<ModelCamera> cameras;

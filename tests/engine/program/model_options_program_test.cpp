@@ -143,9 +143,9 @@ TEST_F(ModelOptions, ScenesTurnLikeModels) {
 
 TEST_F(ModelOptions, ModelsAndScenesComeFromStandardInput) {
   write("m.obj", "v 0 0 0\nv 2 0 0\nv 0 5 0\nf 1 2 3\n");
-  write(
-      "s.json",
-      R"({"tessera": 1, "framebuffer": {"width": 120, "height": 90}, "frame": [{"clear": {"color": [1, 0, 0, 1]}}]})");
+  write("s.json",
+        R"({"tessera": 1, "framebuffer": {"width": 120, "height": 90},
+           "frame": [{"clear": {"color": [1, 0, 0, 1]}}]})");
   const Picture expected = render("m.obj");
   EXPECT_EQ(render("- --input-format obj < " + path("m.obj")).rgba, expected.rgba);
   EXPECT_EQ(render("- --input-format json < " + path("s.json")).rgba[0], 255);

@@ -112,8 +112,9 @@ TEST_F(GltfImport, RefusesReferencesToMissingNodes) {
 // The second "asset" counts.
 TEST_F(GltfImport, RefusesFilesWithoutVersion) {
   const char* rest = R"(, "scenes": [{"nodes": [0]}], "materials": [{}], "nodes": [{"mesh": 0}])";
-  EXPECT_EQ(error_of(std::string(R"("asset": [{"version": "2.0"}])") + rest),
-            (folder_ / "t.gltf").string() + ": has no asset.version: it is glTF 1 or no glTF, expected glTF 2");
+  EXPECT_EQ(
+      error_of(std::string(R"("asset": [{"version": "2.0"}])") + rest),
+      (folder_ / "t.gltf").string() + ": has no asset.version: it is glTF 1 or no glTF, expected glTF 2");
   EXPECT_EQ(error_of(std::string(R"("asset": {"version": "1.0"})") + rest),
             (folder_ / "t.gltf").string() + ": is glTF 1.0, expected glTF 2");
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kAlpha = 0.5f;
 
-/// Squares that face z, each a part of its own material: at z 0, 1, 2, ... in a given order.
+/// Squares that face z, each with a separate material, at given places.
 Model panes(const std::vector<float>& places, const std::vector<Color>& colors) {
   Model model;
   for (std::size_t i = 0; i < places.size(); ++i) {
