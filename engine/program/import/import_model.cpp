@@ -48,10 +48,8 @@ Model read_model(const std::string& path, ModelUse use) {
 }
 
 /// A mesh has no use for images.
-void drop_textures(Model& model) {
-  for (ModelPart& part : model.parts) part.texture.reset();
-  model.textures.clear();
-  model.images.clear();
+void drop_image_bytes(Model& model) {
+  for (ModelImage& image : model.images) image.encoded.clear();
 }
 
 /// Some exporters write the opacity of opaque materials as 0. A model of which nothing would be seen is
@@ -88,7 +86,7 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
       if (model.mesh.normals.empty()) add_creased_normals(model);
       orient_by_normals(model);
     } else {
-      drop_textures(model);
+      drop_image_bytes(model);
     }
     return to_bytes(model);
   };
