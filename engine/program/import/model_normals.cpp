@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <map>
 #include <numeric>
+#include <utility>
 
+#include "engine/program/import/index_table.h"
 #include "engine/tessera/tessera.hpp"
 
 namespace tessera::program {
@@ -45,29 +47,44 @@ Double3 unit(const Double3& n) {
                                              : Double3{};
 }
 
-std::uint32_t group_of(std::span<const std::uint32_t> groups, std::uint32_t corner) {
-  return groups.empty() ? 0 : groups[corner / 3];
-}
+/// The corners at each position, in ascending order.
+class CornersByPosition {
+ public:
+  explicit CornersByPosition(const MeshData& mesh) : ends_(mesh.vertex_count() + 1) {
+    const std::vector<std::uint32_t> first = first_vertices(mesh);
+    const std::size_t corners = mesh.indices.size() / 3 * 3;
+    for (std::size_t corner = 0; corner < corners; ++corner) ++ends_[first[mesh.indices[corner]] + 1];
+    std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+    corners_.resize(corners);
+    for (std::size_t corner = 0; corner < corners; ++corner)
+      corners_[ends_[first[mesh.indices[corner]]]++] = static_cast<std::uint32_t>(corner);
+  }
+  /// The corners at the position of a vertex, if it is the first one there; else none.
+  std::span<const std::uint32_t> at(std::uint32_t vertex) const {
+    const std::uint32_t begin = vertex == 0 ? 0 : ends_[vertex - 1];
+    return std::span(corners_).subspan(begin, ends_[vertex] - begin);
+  }
 
-/// Sorts corners by position and group. Positions with NaN components come last.
-std::vector<std::uint32_t> sorted_corners(const MeshData& mesh, std::span<const std::uint32_t> groups) {
-  std::vector<std::uint32_t> corners(mesh.indices.size() / 3 * 3);
-  std::iota(corners.begin(), corners.end(), 0u);
-  const auto key = [&](std::uint32_t corner) {
-    Float3 p = float3(mesh.positions, mesh.indices[corner]);
-    for (float& x : p)
-      if (std::isnan(x)) x = INFINITY;
-    return p;
-  };
-  std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Float3 p = key(a);
-    const Float3 q = key(b);
-    if (p != q) return p < q;
-    const std::uint32_t group_a = group_of(groups, a), group_b = group_of(groups, b);
-    return group_a != group_b ? group_a < group_b : a < b;
-  });
-  return corners;
-}
+ private:
+  /// The first vertex at the position of each vertex.
+  static std::vector<std::uint32_t> first_vertices(const MeshData& mesh) {
+    std::vector<std::uint32_t> first(mesh.vertex_count());
+    IndexTable table;
+    for (std::uint32_t vertex = 0; vertex < first.size(); ++vertex) {
+      const std::array<std::uint32_t, 3> here = position_bits(mesh, vertex);
+      const auto is_here = [&](std::uint32_t other) { return position_bits(mesh, other) == here; };
+      const std::uint64_t hash = mixed(mixed(here[0], here[1]), here[2]);
+      first[vertex] = table.find_or_add(static_cast<std::uint32_t>(hash), vertex, is_here);
+    }
+    return first;
+  }
+  static std::array<std::uint32_t, 3> position_bits(const MeshData& mesh, std::uint32_t vertex) {
+    return std::bit_cast<std::array<std::uint32_t, 3>>(float3(mesh.positions, vertex));
+  }
+
+  std::vector<std::uint32_t> ends_;  // per vertex, end of its corners, where those of the next vertex begin
+  std::vector<std::uint32_t> corners_;
+};
 
 /// Assigns normals to corners. A vertex keeps the first normal that it gets; corners with another normal get
 /// a copy of the vertex.
@@ -85,25 +102,109 @@ class VertexSplitter {
     }
   }
 
+  /// Forgets the copies: the following corners are at another position.
+  void begin_position() { copies_.clear(); }
+
  private:
+  struct Copy {
+    std::uint32_t vertex;
+    Float3 normal;
+    std::uint32_t index;
+  };
+
   std::uint32_t copy_with(std::uint32_t vertex, const Float3& normal) {
-    const auto [entry, is_new] =
-        copies_.try_emplace({vertex, normal}, static_cast<std::uint32_t>(mesh_.vertex_count()));
-    if (is_new) {
-      const Float3 p = float3(mesh_.positions, vertex);
-      mesh_.positions.insert(mesh_.positions.end(), p.begin(), p.end());
-      mesh_.normals.insert(mesh_.normals.end(), normal.begin(), normal.end());
-      for (std::size_t k = 0; k < 4 && !mesh_.colors.empty(); ++k)
-        mesh_.colors.push_back(mesh_.colors[4 * std::size_t{vertex} + k]);
-      for (std::size_t k = 0; k < 2 && !mesh_.texcoords.empty(); ++k)
-        mesh_.texcoords.push_back(mesh_.texcoords[2 * std::size_t{vertex} + k]);
-    }
-    return entry->second;
+    for (const Copy& copy : copies_)
+      if (copy.vertex == vertex && copy.normal == normal) return copy.index;
+    const auto index = static_cast<std::uint32_t>(mesh_.vertex_count());
+    copies_.push_back({vertex, normal, index});
+    const Float3 p = float3(mesh_.positions, vertex);
+    mesh_.positions.insert(mesh_.positions.end(), p.begin(), p.end());
+    mesh_.normals.insert(mesh_.normals.end(), normal.begin(), normal.end());
+    for (std::size_t k = 0; k < 4 && !mesh_.colors.empty(); ++k)
+      mesh_.colors.push_back(mesh_.colors[4 * std::size_t{vertex} + k]);
+    for (std::size_t k = 0; k < 2 && !mesh_.texcoords.empty(); ++k)
+      mesh_.texcoords.push_back(mesh_.texcoords[2 * std::size_t{vertex} + k]);
+    return index;
   }
 
   MeshData& mesh_;
   std::vector<bool> is_set_;
-  std::map<std::pair<std::uint32_t, Float3>, std::uint32_t> copies_;
+  std::vector<Copy> copies_;  // copied vertices at this position
+};
+
+Float3 rounded(const Double3& n) {
+  return {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
+}
+
+/// Adds the normals of corners at one position.
+class PositionNormals {
+ public:
+  PositionNormals(MeshData& mesh, const std::vector<bool>& missing, double min_cosine)
+      : mesh_(mesh), missing_(missing), min_cosine_(min_cosine), splitter_(mesh) {}
+
+  /// @param groups  as for add_creased_normals()
+  void add(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> groups) {
+    if (std::ranges::none_of(corners, [this](std::uint32_t corner) { return is_missing(corner); })) return;
+    splitter_.begin_position();
+    if (groups.empty()) return add_group(corners, true);
+    const auto group_of = [groups](std::uint32_t corner) { return groups[corner / 3]; };
+    sorted_.assign(corners.begin(), corners.end());
+    std::ranges::stable_sort(sorted_, {}, group_of);
+    for (auto first = sorted_.begin(), end = first; first != sorted_.end(); first = end) {
+      const std::uint32_t group = group_of(*first);
+      end =
+          std::find_if(first, sorted_.end(), [&](std::uint32_t corner) { return group_of(corner) != group; });
+      add_group({first, end}, group == 0);
+    }
+  }
+
+ private:
+  struct Face {
+    Double3 area;   // length twice the triangle's area
+    double length;  // length of area
+    Double3 unit;
+  };
+
+  bool is_missing(std::uint32_t corner) const { return missing_[mesh_.indices[corner]]; }
+
+  /// @param is_creased  whether edges sharper than the crease angle separate triangles
+  void add_group(std::span<const std::uint32_t> corners, bool is_creased) {
+    faces_.clear();
+    for (const std::uint32_t corner : corners) {
+      const Double3 area = face_normal(mesh_, corner / 3 * 3);
+      faces_.push_back({area, std::sqrt(dot(area, area)), unit(area)});
+    }
+    const bool is_compared = is_creased && corners.size() <= kMaxComparedTriangles;
+    const Double3 shared = is_compared ? Double3{} : mean([](const Face&) { return true; });
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (!is_missing(corners[i])) continue;
+      const Double3& own = faces_[i].unit;
+      const auto is_smooth = [&](const Face& face) { return dot(face.unit, own) >= min_cosine_; };
+      const Double3 normal = is_compared ? mean(is_smooth) : shared;
+      splitter_.set(corners[i], rounded(normal == Double3{} ? own : normal));
+    }
+  }
+
+  /// The mean over the triangles that belong; null if they cancel out.
+  template <class Belongs>
+  Double3 mean(const Belongs& belongs) const {
+    Double3 sum{};
+    double length = 0;
+    for (const Face& face : faces_) {
+      if (!belongs(face)) continue;
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += face.area[k];
+      length += face.length;
+    }
+    constexpr double kMinShare = 1e-9;  // below it, the sum is made of rounding errors
+    return std::sqrt(dot(sum, sum)) > kMinShare * length ? unit(sum) : Double3{};
+  }
+
+  MeshData& mesh_;
+  const std::vector<bool>& missing_;  // per vertex, before any was added
+  double min_cosine_;
+  VertexSplitter splitter_;
+  std::vector<Face> faces_;            // per corner of the group
+  std::vector<std::uint32_t> sorted_;  // corners by group
 };
 
 /// Normals of all triangles of a mesh.
@@ -146,36 +247,26 @@ bool is_missing_normal(const float* normal) {
   return is_zero || !std::isfinite(normal[0] + normal[1] + normal[2]);
 }
 
-void add_creased_normals(MeshData& mesh, double crease_degrees, std::span<const std::uint32_t> groups) {
+void add_creased_normals(MeshData& mesh, double crease_degrees, std::span<const std::uint32_t> groups,
+                         const ReportProgress& progress) {
+  constexpr std::uint32_t kReportInterval = 1 << 16;
   mesh.normals.resize(mesh.positions.size());
-  std::vector<bool> missing;
-  for (std::size_t vertex = 0; vertex < mesh.vertex_count(); ++vertex)
-    missing.push_back(is_missing_normal(&mesh.normals[3 * vertex]));
-  const FaceNormals faces(mesh);
+  const auto vertices = static_cast<std::uint32_t>(mesh.vertex_count());
+  std::vector<bool> missing(vertices);
+  for (std::size_t vertex = 0; vertex < vertices; ++vertex)
+    missing[vertex] = is_missing_normal(&mesh.normals[3 * vertex]);
+  if (std::ranges::find(missing, true) == missing.end()) return;
   // The tolerance keeps triangles of a plane together although their positions are rounded.
   const double min_cosine = sin_cos_degrees(crease_degrees).cosine - 1e-9;
-  const std::vector<std::uint32_t> corners = sorted_corners(mesh, groups);
-  VertexSplitter splitter(mesh);
-  for (std::size_t first = 0, end = 0; first < corners.size(); first = end) {
-    const Float3 here = float3(mesh.positions, mesh.indices[corners[first]]);
-    const std::uint32_t group = group_of(groups, corners[first]);
-    for (end = first + 1; end < corners.size() && group_of(groups, corners[end]) == group &&
-                          float3(mesh.positions, mesh.indices[corners[end]]) == here;)
-      ++end;
-    const std::span<const std::uint32_t> fan = std::span(corners).subspan(first, end - first);
-    const bool is_compared = group == 0 && fan.size() <= kMaxComparedTriangles;
-    const Double3 shared = is_compared ? Double3{} : faces.mean(fan, [](std::uint32_t) { return true; });
-    for (const std::uint32_t corner : fan) {
-      if (!missing[mesh.indices[corner]]) continue;
-      const Double3& own = faces.units[corner / 3];
-      const auto is_smooth = [&](std::uint32_t face) { return dot(faces.units[face], own) >= min_cosine; };
-      const Double3 normal = is_compared ? faces.mean(fan, is_smooth) : shared;
-      splitter.set(corner, rounded(normal == Double3{} ? own : normal));
-    }
+  const CornersByPosition corners(mesh);
+  PositionNormals normals(mesh, missing, min_cosine);
+  for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
+    normals.add(corners.at(vertex), groups);
+    if (progress && vertex % kReportInterval == 0) progress(static_cast<double>(vertex) / vertices);
   }
 }
 
-void add_creased_normals(Model& model, double crease_degrees) {
+void add_creased_normals(Model& model, double crease_degrees, const ReportProgress& progress) {
   // Parts of triangles come first.
   std::size_t triangle_indices = 0;
   for (const ModelPart& part : model.parts)
@@ -184,7 +275,7 @@ void add_creased_normals(Model& model, double crease_degrees) {
   const auto end_of_triangles = indices.begin() + static_cast<std::ptrdiff_t>(triangle_indices);
   const std::vector<std::uint32_t> others(end_of_triangles, indices.end());
   indices.erase(end_of_triangles, indices.end());
-  add_creased_normals(model.mesh, crease_degrees);
+  add_creased_normals(model.mesh, crease_degrees, {}, progress);
   indices.insert(indices.end(), others.begin(), others.end());
 }
 
@@ -202,6 +293,11 @@ void orient_by_normals(Model& model) {
       if (along < 0) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
     }
   }
+}
+
+void complete_normals(Model& model, const ReportProgress& progress) {
+  add_creased_normals(model, kCreaseDegrees, progress);
+  orient_by_normals(model);
 }
 
 }  // namespace tessera::program

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "engine/program/import/model_normals.h"
@@ -106,6 +107,80 @@ TEST(WindByNormals, ReversesTrianglesAgainstTheirNormals) {
     std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
   orient_by_normals(model);
   EXPECT_EQ(mesh.indices, right);
+}
+
+/// The rule of add_creased_normals(), applied to each corner on its own by comparing it with all others.
+std::array<double, 3> expected_normal(const MeshData& mesh, const std::vector<std::uint32_t>& groups,
+                                      std::size_t corner) {
+  const auto position = [&](std::size_t i) {
+    const float* const p = &mesh.positions[3 * std::size_t{mesh.indices[i]}];
+    return std::array<double, 3>{p[0], p[1], p[2]};
+  };
+  const auto area = [&](std::size_t i) {
+    const auto a = position(i / 3 * 3), b = position(i / 3 * 3 + 1), c = position(i / 3 * 3 + 2);
+    std::array<double, 3> n{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+      n[k] = (b[l] - a[l]) * (c[m] - a[m]) - (b[m] - a[m]) * (c[l] - a[l]);
+    }
+    return n;
+  };
+  const auto length = [](const std::array<double, 3>& n) { return std::hypot(n[0], n[1], n[2]); };
+  const auto own = area(corner);
+  const std::uint32_t group = groups.empty() ? 0 : groups[corner / 3];
+  std::array<double, 3> sum{};
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    if (position(i) != position(corner) || (!groups.empty() && groups[i / 3] != group)) continue;
+    const auto n = area(i);
+    const double cosine = (n[0] * own[0] + n[1] * own[1] + n[2] * own[2]) / (length(n) * length(own));
+    if (group == 0 && cosine < std::cos(kCreaseDegrees * 3.14159265358979 / 180)) continue;
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += n[k];
+  }
+  const double l = length(sum);
+  return {sum[0] / l, sum[1] / l, sum[2] / l};
+}
+
+// A rough grid with vertices that are shared, repeated, and in different smoothing groups.
+TEST(CreasedNormals, AgreeWithComparingAllCorners) {
+  constexpr std::uint32_t kSide = 9;
+  std::uint32_t random = 7;
+  const auto next = [&random] { return (random = random * 1664525 + 1013904223) >> 16; };
+  for (const bool has_groups : {false, true}) {
+    MeshData mesh;
+    std::vector<std::uint32_t> groups;
+    const auto height = [](std::uint32_t x, std::uint32_t y) {
+      return static_cast<float>((x * 7 + y * 5 + x * y) % 4) * 0.4f;
+    };
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> vertices;
+    const auto corner = [&](std::uint32_t x, std::uint32_t y) {
+      const auto found = vertices.find({x, y});
+      if (found != vertices.end() && next() % 3 != 0) return mesh.indices.push_back(found->second);
+      mesh.indices.push_back(vertices[{x, y}] = static_cast<std::uint32_t>(mesh.vertex_count()));
+      mesh.positions.insert(mesh.positions.end(),
+                            {static_cast<float>(x), static_cast<float>(y), height(x, y)});
+    };
+    for (std::uint32_t y = 0; y < kSide; ++y)
+      for (std::uint32_t x = 0; x < kSide; ++x) {
+        corner(x, y), corner(x + 1, y), corner(x, y + 1);
+        corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1);
+        for (int i = 0; i < 2 && has_groups; ++i) groups.push_back(next() % 3);
+      }
+    const MeshData before = mesh;
+    double last = -1;
+    add_creased_normals(mesh, kCreaseDegrees, groups, [&last](double done) {
+      EXPECT_GT(done, last);
+      last = done;
+    });
+    EXPECT_GE(last, 0);
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+      const auto expected = expected_normal(before, groups, i);
+      const std::array<float, 3> found = normal(mesh, i);
+      for (std::size_t k = 0; k < 3; ++k) ASSERT_NEAR(found[k], expected[k], 1e-6) << i;
+      for (std::size_t k = 0; k < 3; ++k)
+        ASSERT_EQ(mesh.positions[3 * std::size_t{mesh.indices[i]} + k],
+                  before.positions[3 * std::size_t{before.indices[i]} + k]);
+    }
+  }
 }
 
 }  // namespace
