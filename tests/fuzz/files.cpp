@@ -20,7 +20,7 @@ std::string read_text_file(const std::string& path, std::size_t) {
 void refuse_device_or_pipe(const std::string&) {}
 
 // Reads OBJ files as the real import_model() does, without a child process.
-Model import_model(const std::string& path, ModelUse use, const std::function<bool()>&) {
+Model import_model(const std::string& path, ModelUse use, const ImportOptions&) {
   Model model = import_obj(path, use);
   if (use == ModelUse::display) {
     if (model.mesh.normals.empty()) add_creased_normals(model);

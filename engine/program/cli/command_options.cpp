@@ -52,16 +52,16 @@ void add_input(CLI::App& command, std::string& input) {
 void add_input_format(CLI::App& command, RenderRequest& request) {
   command
       .add_option(
-          "--input-format", request.input_format,
+          "--input-format", request.import.format,
           "format of the input -, standard input: json for a scene, or the extension of a model's file: "
           "stl, glb, ...")
       ->option_text("FORMAT")
       ->check(not_empty("FORMAT"));
   command.parse_complete_callback([&request] {
     const bool is_stdin = request.input == "-";
-    if (is_stdin && request.input_format.empty())
+    if (is_stdin && request.import.format.empty())
       throw CLI::ValidationError("--input-format", "found none, the input - needs one, such as stl");
-    if (!is_stdin && !request.input_format.empty())
+    if (!is_stdin && !request.import.format.empty())
       throw CLI::ValidationError("--input-format", "is for the input -, standard input, alone");
   });
 }
@@ -322,6 +322,21 @@ void add_reports(CLI::App& command, RenderRequest& request) {
 
 }  // namespace
 
+void add_import_limits(CLI::App& command, ImportRequest& request) {
+  command
+      .add_option(
+          "--import-memory", request.memory_mib,
+          "memory in MiB that reading a model may take; default: a quarter of the machine's, at least "
+          "1024")
+      ->option_text("MIB")
+      ->transform(integer_from(16, 1 << 24));
+  command
+      .add_option("--import-seconds", request.seconds,
+                  "seconds that reading a model may take without progress; default: 10")
+      ->option_text("N")
+      ->transform(integer_from(1, 1000000));
+}
+
 CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   CLI::App* command = program.add_subcommand("render",
                                              "Render a scene (.json) or a model (.obj, .gltf, .glb, .ply, "
@@ -330,6 +345,7 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   command->option_defaults()->take_last();
   add_input(*command, request.input);
   add_input_format(*command, request);
+  add_import_limits(*command, request.import);
   add_output(*command, request);
   add_scene_overrides(*command, request.overrides);
   add_mode(*command, request.overrides);
@@ -353,6 +369,7 @@ CLI::App* add_explain(CLI::App& program, ExplainRequest& request) {
   command->footer(kExplainExamples);
   command->option_defaults()->take_last();
   add_input(*command, request.input);
+  add_import_limits(*command, request.import);
   add_scene_overrides(*command, request.overrides);
   add_mode(*command, request.overrides);
   add_view(*command, request.overrides);

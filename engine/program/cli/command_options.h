@@ -22,6 +22,9 @@ CLI::App* add_color(CLI::App& program, ColorRequest& request);
 CLI::App* add_display(CLI::App& program, DisplayCommandRequest& request);
 CLI::App* add_selftest(CLI::App& program, SelftestRequest& request);
 
+/// Adds --import-memory and --import-seconds to a command.
+void add_import_limits(CLI::App& command, ImportRequest& request);
+
 /// Adds --display, --scale, --part, --gain and --frame-ms to a command.
 void add_display_view(CLI::App& command, DisplayRequest& request);
 

@@ -94,7 +94,7 @@ std::string buffers_text(const Frame& frame) {
 
 int explain(const ExplainRequest& request) {
   const Interrupt interrupt;
-  const SceneInput input(request.input, request.overrides);
+  const SceneInput input(request.input, request.overrides, request.import);
   input.print_warnings();
   FrameBuffer buffer(input.scene().framebuffer);
   Frame frame(buffer);

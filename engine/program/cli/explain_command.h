@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "engine/program/cli/scene_input.h"
 #include "engine/program/scene/scene.h"
 
 namespace tessera::program::cli {
@@ -10,7 +11,8 @@ namespace tessera::program::cli {
 struct MeasuredScene;
 
 struct ExplainRequest {
-  std::string input;  ///< a scene or a model; empty: the built-in scene
+  std::string input;     ///< a scene or a model; empty: the built-in scene
+  ImportRequest import;  ///< for a model
   SceneOverrides overrides;
   bool json = false;
   bool measure = false;  ///< also renders the scene, and prints times and shares

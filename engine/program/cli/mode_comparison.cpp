@@ -98,7 +98,7 @@ ModeComparison::ModeComparison(const ModeComparisonRequest& request)
     : request_(request),
       groups_(grouped(request.modes.empty() ? modes_with_pixels() : request.modes)),
       dithers_(request.dithers.empty() ? all_dithers() : request.dithers),
-      scenes_(request.input),
+      scenes_(request.input, request.import),
       renderer_({.threads = request.threads, .progress = [](double) { return !Interrupt::pressed(); }}) {}
 
 /// @throws Error  also for scenes of palette indices

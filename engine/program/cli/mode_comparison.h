@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "engine/program/cli/scene_input.h"
 #include "engine/tessera/display_mode.hpp"
 
 namespace tessera::program::cli {
 
 struct ModeComparisonRequest {
   std::string input;               ///< a scene or a model; empty: the built-in scene
+  ImportRequest import;            ///< for a model
   std::string folder;              ///< created if it does not exist
   std::vector<DisplayMode> modes;  ///< with pixels; empty: all named ones
   std::vector<Dither> dithers;     ///< empty: all

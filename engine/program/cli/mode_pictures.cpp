@@ -105,7 +105,7 @@ bool concerns_format(const Error& error) {
 Scene ModeScenes::in_mode(const DisplayMode& mode, Dither dither, DitherSpace dither_in) {
   auto found = scenes_.find(mode.screen_aspect());
   if (found == scenes_.end()) {
-    const SceneInput input(input_, {.mode = mode});
+    const SceneInput input(input_, {.mode = mode}, import_);
     if (scenes_.empty()) input.print_warnings();
     found = scenes_.emplace(mode.screen_aspect(), input.scene()).first;
   }

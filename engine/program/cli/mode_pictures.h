@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/program/cli/scene_input.h"
 #include "engine/program/imageio/picture.h"
 #include "engine/program/scene/scene.h"
 
@@ -14,7 +15,7 @@ namespace tessera::program::cli {
 class ModeScenes {
  public:
   /// @param input  empty: the built-in scene
-  explicit ModeScenes(std::string input) : input_(std::move(input)) {}
+  ModeScenes(std::string input, const ImportRequest& import) : input_(std::move(input)), import_(import) {}
   /// Returns the scene in a mode, with an adaptive palette if the mode's can be chosen. Prints its warnings
   /// on stderr when it is read first.
   /// @throws Error for a file that cannot be read
@@ -22,6 +23,7 @@ class ModeScenes {
 
  private:
   std::string input_;
+  ImportRequest import_;
   std::map<double, Scene> scenes_;  ///< by width to height of the screen
 };
 

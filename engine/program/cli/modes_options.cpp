@@ -50,6 +50,7 @@ void add_mode_comparison(CLI::App& command, ModeComparisonRequest& request) {
                   "scene or model to draw in all modes, with -o; default: the built-in scene")
       ->option_text("[SCENE.json | MODEL]")
       ->check(not_empty("a scene's or a model's name"));
+  add_import_limits(command, request.import);
   command
       .add_option("-o,--output", request.folder,
                   "folder for the scene in every mode with every dither: MODE-DITHER.png, contact.png, "
@@ -75,7 +76,8 @@ void add_mode_comparison(CLI::App& command, ModeComparisonRequest& request) {
 void check_use(const CLI::App& command, const ModesRequest& request) {
   if (command.remaining_size() > 0) return;  // reported as unexpected
   const bool compares = !request.comparison.folder.empty();
-  for (const char* const option : {"input", "--modes", "--dithers", "--dither-in", "--threads"})
+  for (const char* const option :
+       {"input", "--import-memory", "--import-seconds", "--modes", "--dithers", "--dither-in", "--threads"})
     if (!compares && command.count(option) > 0)
       throw CLI::ValidationError(std::string(option) == "input" ? request.comparison.input : option,
                                  "needs -o DIR, the folder for pictures and tables");

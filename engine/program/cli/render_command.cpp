@@ -171,7 +171,7 @@ void write_frame(const RenderRequest& request, const Scene& scene, const Picture
 int render(RenderRequest request) {
   const auto start = std::chrono::steady_clock::now();
   const Interrupt interrupt;
-  SceneInput input(request.input, request.overrides, request.input_format);
+  SceneInput input(request.input, request.overrides, request.import, request.progress);
   input.print_warnings();
   RunStats run;
   run.load_ms = milliseconds_since(start);

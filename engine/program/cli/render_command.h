@@ -7,6 +7,7 @@
 #include "engine/program/cli/display_request.h"
 #include "engine/program/cli/output.h"
 #include "engine/program/cli/progress.h"
+#include "engine/program/cli/scene_input.h"
 #include "engine/program/cli/stats_text.h"
 #include "engine/program/scene/scene.h"
 #include "engine/tessera/tessera.hpp"
@@ -15,7 +16,7 @@ namespace tessera::program::cli {
 
 struct RenderRequest {
   std::string input;          ///< a scene or a model; empty: the built-in scene; "-": standard input
-  std::string input_format;   ///< format of standard input, such as "stl"
+  ImportRequest import;       ///< for a model, and the format of standard input
   OutputRequest output;       ///< path empty: INPUT.render.png in the current folder
   std::string planes_folder;  ///< empty: planes are not written
   std::string dump;           ///< file for the memory of the display mode; empty: not written

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <utility>
 
 #include <stdlib.h>
@@ -22,8 +23,6 @@
 namespace tessera::program::cli {
 
 namespace {
-
-bool should_continue() { return !Interrupt::pressed(); }
 
 /// A file with the bytes of standard input, which disappears with the object.
 class StandardInputFile {
@@ -51,28 +50,39 @@ class StandardInputFile {
 
 }  // namespace
 
-SceneInput::SceneInput(const std::string& path, const SceneOverrides& overrides, const std::string& format)
+SceneInput::SceneInput(const std::string& path, const SceneOverrides& overrides, const ImportRequest& import,
+                       ShowProgress show_progress)
     : overrides_(overrides) {
+  const auto progress = std::make_shared<Progress>(show_progress);
+  const ImportOptions options{
+      .memory_bytes = static_cast<std::size_t>(import.memory_mib) << 20,
+      .seconds = import.seconds,
+      .should_continue = [] { return !Interrupt::pressed(); },
+      .progress =
+          [progress](const std::string& model, double done) {
+            progress->show(done, "reading " + printable(std::filesystem::path(model).filename().string()));
+          }};
   if (path.empty()) {
     scene_ = builtin_scene();
   } else if (path == "-") {
-    const StandardInputFile file(format);
-    if (format == "json") scene_ = parse_scene(read_text_file(file.path()), "standard input");
-    else load_model(file.path());
+    const StandardInputFile file(import.format);
+    if (import.format == "json") scene_ = parse_scene(read_text_file(file.path()), "standard input");
+    else load_model(file.path(), options);
   } else if (lower_case_extension(path) == ".json") {
-    file_.emplace(path, should_continue);
+    file_.emplace(path, options);
     scene_ = file_->at(0);
   } else {
-    load_model(path);
+    load_model(path, options);
   }
+  progress->clear();
   apply(overrides_, scene_);
   camera_ = scene_.camera;
   lights_ = scene_.lights;
 }
 
-void SceneInput::load_model(const std::string& path) {
+void SceneInput::load_model(const std::string& path, const ImportOptions& options) {
   const FrameBufferFormat defaults;
-  Model model = import_model(path, ModelUse::display, should_continue);
+  Model model = import_model(path, ModelUse::display, options);
   turn_up(overrides_.up, model);
   int width = overrides_.width.value_or(defaults.width);
   int height = overrides_.height.value_or(defaults.height);

@@ -4,19 +4,28 @@
 #include <optional>
 #include <string>
 
+#include "engine/program/cli/progress.h"
 #include "engine/program/scene/scene.h"
 
 namespace tessera::program::cli {
+
+/// How models are read.
+struct ImportRequest {
+  int memory_mib = 0;  ///< limit of the process that reads a model; 0: a quarter of the machine's memory
+  int seconds = 10;    ///< limit without progress
+  std::string format{};  ///< of standard input: "json", or a model's file name extension without its dot
+};
 
 /// A scene, evaluated at the time of each frame.
 class SceneInput {
  public:
   /// @param path       a scene or a model; empty: the built-in scene; "-": standard input
-  /// @param format     of standard input: "json", or a model's file name extension without its dot
   /// @param overrides  replace values of the scene
+  /// @param progress   whether to show how much of a model is read
   /// @throws Error      for a file that cannot be read
   /// @throws Cancelled  if the user interrupts
-  SceneInput(const std::string& path, const SceneOverrides& overrides, const std::string& format = "");
+  SceneInput(const std::string& path, const SceneOverrides& overrides, const ImportRequest& import = {},
+             ShowProgress progress = ShowProgress::automatic);
 
   const Scene& scene() const { return scene_; }
   /// Returns whether the scene changes over time.
@@ -29,7 +38,7 @@ class SceneInput {
   void print_warnings() const;
 
  private:
-  void load_model(const std::string& path);
+  void load_model(const std::string& path, const ImportOptions& options);
 
   SceneOverrides overrides_;
   // Before a turntable turns; models and the built-in scene only.

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <new>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -25,9 +27,12 @@ namespace {
 
 // Precedes the bytes of the result or of the error message.
 struct Header {
-  enum Kind : std::uint64_t { result, error, no_memory } kind;
-  std::uint64_t bytes;  // payload size
+  enum Kind : std::uint64_t { result, error, no_memory, progress } kind;
+  std::uint64_t value;  // payload size; for progress, the share that is done, of kAllDone
 };
+constexpr double kAllDone = 1 << 20;
+
+constexpr std::size_t kBufferBytes = 1 << 16;  // pieces that are larger are not copied
 
 void write_all(int to, const char* bytes, std::size_t count) {
   while (count > 0) {
@@ -56,58 +61,39 @@ void limit_memory(std::size_t more_bytes) {
 void limit_memory(std::size_t) {}
 #endif
 
+void send_header(int to, Header::Kind kind, std::uint64_t value) {
+  const Header header{kind, value};
+  write_all(to, reinterpret_cast<const char*>(&header), sizeof header);
+}
+
+void send_text(int to, Header::Kind kind, std::string_view text) {
+  send_header(to, kind, text.size());
+  write_all(to, text.data(), text.size());
+}
+
 [[noreturn]] void run_child(int to, pid_t parent, const ChildLimits& limits,
-                            const std::function<std::string()>& work) {
+                            const std::function<void(ChildOutput&)>& work) {
   // Silences libraries that print.
   if (const int nowhere = ::open("/dev/null", O_RDWR); nowhere >= 0)
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, standard);
   if (std::signal(SIGINT, SIG_DFL) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(0);  // the parent ended before prctl()
-  const auto seconds = static_cast<rlim_t>(limits.time.count() / 1000 + 1);
-  const rlimit time{seconds, seconds + 1};
   const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CPU, &time);
   ::setrlimit(RLIMIT_CORE, &no_core);
   limit_memory(limits.memory_bytes);
-  const auto send = [&](Header::Kind kind, std::string_view text) {
-    const Header header{kind, text.size()};
-    write_all(to, reinterpret_cast<const char*>(&header), sizeof header);
-    write_all(to, text.data(), text.size());
-  };
   try {
-    send(Header::result, work());
+    ChildOutput output(to);
+    work(output);
+    output.flush();
   } catch (const std::bad_alloc&) {
-    send(Header::no_memory, {});
+    send_text(to, Header::no_memory, {});
   } catch (const std::exception& error) {
-    send(Header::error, error.what());
+    send_text(to, Header::error, error.what());
   } catch (...) {
-    send(Header::error, "an exception of unknown type");
+    send_text(to, Header::error, "an exception of unknown type");
   }
   ::_exit(0);
-}
-
-using Clock = std::chrono::steady_clock;
-enum class ReadStatus { all, ended, timed_out, cancelled };
-
-ReadStatus read_all(int from, Clock::time_point end, const std::function<bool()>& should_continue, char* to,
-                    std::size_t count) {
-  constexpr std::chrono::milliseconds kPause(100);
-  while (count > 0) {
-    if (should_continue && !should_continue()) return ReadStatus::cancelled;
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
-    if (left.count() <= 0) return ReadStatus::timed_out;
-    pollfd waiting{from, POLLIN, 0};
-    const int ready = ::poll(&waiting, 1, static_cast<int>(std::min(left, kPause).count()));
-    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
-    if (ready < 0) return ReadStatus::ended;
-    const ssize_t taken = ::read(from, to, count);
-    if (taken < 0 && errno == EINTR) continue;
-    if (taken <= 0) return ReadStatus::ended;
-    to += taken;
-    count -= static_cast<std::size_t>(taken);
-  }
-  return ReadStatus::all;
 }
 
 std::string mebibytes(std::size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
@@ -149,13 +135,92 @@ class Child {
   int from_;
 };
 
-}  // namespace
+using Clock = std::chrono::steady_clock;
 
-std::string run_in_child(const std::string& what, const ChildLimits& limits,
-                         const std::function<std::string()>& work) {
+/// The parent's side of the pipe. Each received byte restarts the limit of time.
+class Connection {
+ public:
+  Connection(const std::string& what, const ChildLimits& limits, pid_t id, int from)
+      : what_(what), limits_(limits), child_(id, from), from_(from) {}
+
+  void read(char* to, std::size_t count) {
+    while (count > 0) {
+      if (begin_ == end_ && count >= kBufferBytes) {
+        const std::size_t taken = receive(to, std::min(count, kMaxRead));
+        to += taken;
+        count -= taken;
+        continue;
+      }
+      if (begin_ == end_) begin_ = 0, end_ = receive(buffer_.data(), buffer_.size());
+      const std::size_t copied = std::min(count, end_ - begin_);
+      std::copy_n(&buffer_[begin_], copied, to);
+      begin_ += copied;
+      to += copied;
+      count -= copied;
+    }
+  }
+
+  Header read_header() {
+    Header header{};
+    do {
+      read(reinterpret_cast<char*>(&header), sizeof header);
+      if (header.kind == Header::progress && limits_.progress)
+        limits_.progress(static_cast<double>(header.value) / kAllDone);
+    } while (header.kind == Header::progress);
+    return header;
+  }
+
+ private:
+  static constexpr std::size_t kMaxRead = std::size_t{1} << 24;  // so that should_continue is asked
+
+  /// Waits until the pipe has bytes. Returns how many it gave, at least 1.
+  std::size_t receive(char* to, std::size_t max_count) {
+    const Clock::time_point end = Clock::now() + limits_.time;
+    for (;;) {
+      if (limits_.should_continue && !limits_.should_continue()) throw Cancelled(what_ + " was interrupted");
+      if (!wait_for_bytes(end)) continue;
+      const ssize_t taken = ::read(from_, to, max_count);
+      if (taken > 0) return static_cast<std::size_t>(taken);
+      if (taken == 0 || errno != EINTR) report_end();
+    }
+  }
+
+  /// Waits for at most 100 ms. Returns whether a read would not block.
+  bool wait_for_bytes(Clock::time_point end) {
+    constexpr std::chrono::milliseconds kPause(100);
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    if (left.count() <= 0)
+      throw Error(what_ + " made no progress for " + std::to_string(limits_.time.count() / 1000) +
+                  " seconds; given up");
+    pollfd waiting{from_, POLLIN, 0};
+    const int ready = ::poll(&waiting, 1, static_cast<int>(std::min(left, kPause).count()));
+    if (ready < 0 && errno != EINTR) report_end();
+    return ready > 0;
+  }
+
+  [[noreturn]] void report_end() {
+    const int status = child_.wait();
+    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    if (signal == SIGINT) throw Cancelled(what_ + " was interrupted");
+    if (signal == SIGKILL) throw Error(what_ + " took too much memory; given up");
+    throw Error(what_ + " crashed: the file is damaged, or its reader does not support it");
+  }
+
+  const std::string& what_;
+  const ChildLimits& limits_;
+  Child child_;
+  int from_;
+  std::vector<char> buffer_ = std::vector<char>(kBufferBytes);
+  std::size_t begin_ = 0, end_ = 0;  // range of the buffer that is not yet read
+};
+
+/// Starts the child. Returns its process and the pipe from it.
+std::pair<pid_t, int> fork_child(const std::string& what, const ChildLimits& limits,
+                                 const std::function<void(ChildOutput&)>& work) {
   int ends[2];
   if (!make_pipe(ends))
     throw Error(what + ": cannot create a pipe to a child process: " + std::strerror(errno));
+  ::fcntl(ends[1], F_SETPIPE_SZ, 1 << 20);  // fewer switches between the processes; may be refused
   std::fflush(nullptr);
   const pid_t parent = ::getpid();
   const pid_t id = ::fork();
@@ -165,36 +230,68 @@ std::string run_in_child(const std::string& what, const ChildLimits& limits,
   }
   const int reason = errno;
   ::close(ends[1]);
-  Child child(id, ends[0]);
-  if (id < 0) throw Error(what + ": cannot start a child process: " + std::strerror(reason));
+  if (id < 0) {
+    ::close(ends[0]);
+    throw Error(what + ": cannot start a child process: " + std::strerror(reason));
+  }
+  return {id, ends[0]};
+}
 
-  const Clock::time_point end = Clock::now() + limits.time;
-  Header header{};
-  std::string bytes;
-  ReadStatus read =
-      read_all(ends[0], end, limits.should_continue, reinterpret_cast<char*>(&header), sizeof header);
-  if (read == ReadStatus::all) {
-    if (header.bytes > limits.result_bytes)
-      throw Error(what + " gives " + mebibytes(header.bytes) + ", must be at most " +
-                  mebibytes(limits.result_bytes));
-    bytes.resize(header.bytes);
-    read = read_all(ends[0], end, limits.should_continue, bytes.data(), bytes.size());
-  }
-  if (read == ReadStatus::cancelled) throw Cancelled(what + " was interrupted");
-  if (read == ReadStatus::timed_out)
-    throw Error(what + " took more than " + std::to_string(limits.time.count() / 1000) +
-                " seconds; given up");
-  if (read == ReadStatus::ended) {
-    const int status = child.wait();
-    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    if (signal == SIGINT) throw Cancelled(what + " was interrupted");
-    if (signal == SIGXCPU || signal == SIGKILL) throw Error(what + " took too much time or memory; given up");
-    throw Error(what + " crashed: the file is damaged, or its reader does not support it");
-  }
+}  // namespace
+
+void ChildOutput::report(double done) {
+  constexpr std::chrono::milliseconds kInterval(50);
+  const auto now = Clock::now();
+  if (!(done > reported_) || now - last_report_ < kInterval) return;
+  reported_ = done;
+  last_report_ = now;
+  send_header(pipe_, Header::progress, static_cast<std::uint64_t>(std::min(done, 1.0) * kAllDone));
+}
+
+void ChildOutput::begin_result(std::uint64_t bytes) { send_header(pipe_, Header::result, bytes); }
+
+void ChildOutput::write(const char* bytes, std::size_t count) {
+  if (buffer_.size() + count > kBufferBytes) flush();
+  if (count > kBufferBytes) write_all(pipe_, bytes, count);
+  else buffer_.append(bytes, count);
+}
+
+void ChildOutput::flush() {
+  write_all(pipe_, buffer_.data(), buffer_.size());
+  buffer_.clear();
+}
+
+void run_in_child(const std::string& what, const ChildLimits& limits,
+                  const std::function<void(ChildOutput&)>& work,
+                  const std::function<void(const ByteReader&, std::uint64_t bytes)>& receive) {
+  const auto [id, pipe] = fork_child(what, limits, work);
+  Connection connection(what, limits, id, pipe);
+  const Header header = connection.read_header();
   if (header.kind == Header::no_memory)
     throw Error(what + " takes more than " + mebibytes(limits.memory_bytes) + " of memory; given up");
-  if (header.kind == Header::error) throw Error(bytes);
-  return bytes;
+  if (header.value > limits.result_bytes)
+    throw Error(what + " gives " + mebibytes(header.value) + ", must be at most " +
+                mebibytes(limits.result_bytes));
+  const auto read = [&connection](char* to, std::size_t count) { connection.read(to, count); };
+  if (header.kind == Header::result) return receive(read, header.value);
+  std::string message(header.value, '\0');
+  read(message.data(), message.size());
+  throw Error(message);
+}
+
+std::string run_in_child(const std::string& what, const ChildLimits& limits,
+                         const std::function<std::string()>& work) {
+  std::string result;
+  const auto send = [&](ChildOutput& output) {
+    const std::string bytes = work();
+    output.begin_result(bytes.size());
+    output.write(bytes.data(), bytes.size());
+  };
+  run_in_child(what, limits, send, [&](const ByteReader& read, std::uint64_t bytes) {
+    result.resize(bytes);
+    read(result.data(), result.size());
+  });
+  return result;
 }
 
 }  // namespace tessera::program

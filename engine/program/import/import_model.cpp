@@ -9,6 +9,7 @@
 #include "engine/program/import/child_process.h"
 #include "engine/program/import/gltf.h"
 #include "engine/program/import/import_module_interface.h"
+#include "engine/program/import/memory_limit.h"
 #include "engine/program/import/model_bytes.h"
 #include "engine/program/import/model_images.h"
 #include "engine/program/import/model_normals.h"
@@ -23,7 +24,8 @@ namespace fs = std::filesystem;
 
 template <class Function>
 Function* import_module_function(const char* name, const std::string& wanted_for) {
-  void* const module = load_module(TESSERA_IMPORT_FILE_NAME, wanted_for, ".obj works without it");
+  void* const module =
+      load_module(TESSERA_IMPORT_FILE_NAME, wanted_for, ".obj works without it");
   return reinterpret_cast<Function*>(function_of(module, TESSERA_IMPORT_FILE_NAME, name));
 }
 
@@ -40,7 +42,7 @@ std::string import_by_module(const std::string& path) {
   }
 }
 
-Model read_model(const std::string& path, ModelUse use) {
+Model read_by_extension(const std::string& path, ModelUse use) {
   const std::string extension = lower_case_extension(path);
   if (extension == ".obj") return import_obj(path, use);
   if (extension == ".gltf" || extension == ".glb") return import_gltf(path);
@@ -66,9 +68,31 @@ void keep_visible(const std::string& path, Model& model) {
   model.warnings.push_back(path + ": the opacity of all materials is 0; they are drawn opaque");
 }
 
+Model read_file(const std::string& path, ModelUse use, const ReportProgress& progress) {
+  Model model = read_by_extension(path, use);
+  if (use == ModelUse::display) {
+    keep_visible(path, model);
+    decode_images(path, model);
+    complete_normals(model, part_of(progress, 0.7, 1));
+  } else {
+    drop_image_bytes(model);
+  }
+  return model;
+}
+
+ChildLimits child_limits(const std::string& path, const ImportOptions& options) {
+  ChildLimits limits{.time = std::chrono::seconds(options.seconds),
+                     .memory_bytes = options.memory_bytes,
+                     .should_continue = options.should_continue};
+  if (limits.memory_bytes == 0) limits.memory_bytes = default_import_memory();
+  limits.result_bytes = limits.memory_bytes;
+  if (options.progress) limits.progress = [&options, path](double done) { options.progress(path, done); };
+  return limits;
+}
+
 }  // namespace
 
-Model import_model(const std::string& path, ModelUse use, const std::function<bool()>& should_continue) {
+Model import_model(const std::string& path, ModelUse use, const ImportOptions& options) {
   errno = 0;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -78,20 +102,15 @@ Model import_model(const std::string& path, ModelUse use, const std::function<bo
     throw Error("cannot read \"" + path + "\": it is " +
                 (fs::is_directory(status) ? "a directory" : "not a regular file") + ", expected a model");
   if (!std::ifstream(path)) throw Error("cannot read \"" + path + "\": " + std::strerror(errno));
-  const auto read = [&] {
-    Model model = read_model(path, use);
-    if (use == ModelUse::display) {
-      keep_visible(path, model);
-      decode_images(path, model);
-      if (model.mesh.normals.empty()) add_creased_normals(model);
-      orient_by_normals(model);
-    } else {
-      drop_image_bytes(model);
-    }
-    return to_bytes(model);
+  const auto send = [&](ChildOutput& output) {
+    const Model model = read_file(path, use, [&output](double done) { output.report(done); });
+    output.begin_result(model_byte_count(model));
+    write_model(model, [&output](const char* bytes, std::size_t count) { output.write(bytes, count); });
   };
-  return model_from_bytes(
-      run_in_child("reading \"" + path + "\"", {.should_continue = should_continue}, read), path);
+  Model model;
+  run_in_child("reading \"" + path + "\"", child_limits(path, options), send,
+               [&](const ByteReader& read, std::uint64_t bytes) { model = read_model(read, bytes, path); });
+  return model;
 }
 
 std::vector<std::string> model_extensions() {

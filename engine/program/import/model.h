@@ -1,5 +1,5 @@
-// Models from files. tinyobjloader reads Wavefront OBJ with MTL materials, assimp everything else, both in a
-// child process.
+// Models from files. tinyobjloader reads Wavefront OBJ with MTL materials, readers of our own STL and PLY,
+// assimp everything else, all in a child process.
 #pragma once
 
 #include <cstddef>
@@ -90,14 +90,23 @@ enum class ModelUse {
   display  ///< every corner has a normal, and triangles are wound to match (model_normals.h)
 };
 
-/// Reads a model in a child process that may take 10 seconds and 1 GiB and return 256 MiB.
+/// Limits of the process that reads a model, and what is asked and told meanwhile.
+struct ImportOptions {
+  /// Memory of the process, and at most as much for the model. 0: a quarter of the machine's memory or of
+  /// what the control group of this process may have, at least 1 GiB.
+  std::size_t memory_bytes = 0;
+  int seconds = 10;  ///< without progress. Readers of STL and PLY report progress, others only the result
+  std::function<bool()> should_continue{};  ///< polled about ten times a second; false cancels
+  /// Receives the file and the share of it that is done, 0 .. 1.
+  std::function<void(const std::string& path, double done)> progress{};
+};
+
+/// Reads a model in a child process with limits.
 /// - Forks this process: call it before other threads run.
-/// @param should_continue  polled about ten times a second; false cancels
 /// @throws Error, naming the file and if possible the line, for a file that is missing, broken or without
 ///   triangles, or that exceeds a limit
 /// @throws Cancelled
-Model import_model(const std::string& path, ModelUse use = ModelUse::mesh,
-                   const std::function<bool()>& should_continue = {});
+Model import_model(const std::string& path, ModelUse use = ModelUse::mesh, const ImportOptions& options = {});
 
 /// Returns the file name extensions of the readable formats, in lower case with their dots.
 /// @throws Error without the import module

@@ -38,11 +38,11 @@ void visit_members(Stream& stream, SameUnqualified<std::size_t> auto& value);
 
 class Writer {
  public:
-  std::string bytes;
+  explicit Writer(const ByteWriter& write) : write_(write) {}
 
   template <class T>
   requires kIsPlain<T>
-  void operator()(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
+  void operator()(const T& value) { write_(reinterpret_cast<const char*>(&value), sizeof value); }
   template <class Enum>
   requires std::is_enum_v<Enum>
   void enumerator(Enum value, Enum) { (*this)(static_cast<std::uint8_t>(value)); }
@@ -66,8 +66,11 @@ class Writer {
   template <class List>
   void list(const List& elements) {
     (*this)(elements.size());
-    bytes.append(reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(elements[0]));
+    if (!elements.empty())
+      write_(reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(elements[0]));
   }
+
+  const ByteWriter& write_;
 };
 
 class Reader {
@@ -82,13 +85,15 @@ class Reader {
     value = static_cast<Enum>(number);
   }
 
-  explicit Reader(const std::string& bytes) : bytes_(bytes) {}
+  Reader(const ByteReader& read, std::uint64_t bytes, const std::string& path)
+      : read_(read), left_(bytes), path_(path) {}
 
   template <class T>
   requires kIsPlain<T>
-  void operator()(T& value) { std::memcpy(&value, take(sizeof value), sizeof value); }
+  void operator()(T& value) { take(&value, sizeof value); }
   void operator()(bool& value) {
-    const char byte = *take(1);
+    char byte = 0;
+    take(&byte, 1);
     if (byte != 0 && byte != 1) fail();
     value = byte == 1;
   }
@@ -109,32 +114,30 @@ class Reader {
     if (has) visit_members(*this, value.emplace());
   }
   void end() const {
-    if (at_ != bytes_.size()) fail();
+    if (left_ != 0) fail();
   }
-  [[noreturn]] static void fail() { throw Error("the reading process sent an invalid model"); }
+  [[noreturn]] void fail() const { throw Error(path_ + ": the reading process sent an invalid model"); }
 
  private:
   template <class List>
   void list(List& elements) {
     elements.resize(count(sizeof(elements[0])));
-    if (!elements.empty())
-      std::memcpy(elements.data(), take(elements.size() * sizeof(elements[0])),
-                  elements.size() * sizeof(elements[0]));
+    if (!elements.empty()) take(elements.data(), elements.size() * sizeof(elements[0]));
   }
   std::size_t count(std::size_t element_bytes) {
     std::size_t size = 0;
     (*this)(size);
-    if (size > (bytes_.size() - at_) / element_bytes) fail();
+    if (size > left_ / element_bytes) fail();
     return size;
   }
-  const char* take(std::size_t size) {
-    if (size > bytes_.size() - at_) fail();
-    const char* const from = bytes_.data() + at_;
-    at_ += size;
-    return from;
+  void take(void* to, std::size_t size) {
+    if (size > left_) fail();
+    left_ -= size;
+    read_(static_cast<char*>(to), size);
   }
-  const std::string& bytes_;
-  std::size_t at_ = 0;
+  const ByteReader& read_;
+  std::uint64_t left_;
+  const std::string& path_;
 };
 
 template <class Stream>
@@ -261,21 +264,40 @@ bool is_valid(const Model& model) {
 
 }  // namespace
 
-std::string to_bytes(const Model& model) {
-  Writer writer;
+void write_model(const Model& model, const ByteWriter& write) {
+  Writer writer(write);
   visit_members(writer, model);
-  return std::move(writer.bytes);
 }
 
-Model model_from_bytes(const std::string& bytes, const std::string& path) try {
+std::uint64_t model_byte_count(const Model& model) {
+  std::uint64_t bytes = 0;
+  write_model(model, [&bytes](const char*, std::size_t count) { bytes += count; });
+  return bytes;
+}
+
+std::string to_bytes(const Model& model) {
+  std::string bytes;
+  bytes.reserve(model_byte_count(model));
+  write_model(model, [&bytes](const char* from, std::size_t count) { bytes.append(from, count); });
+  return bytes;
+}
+
+Model read_model(const ByteReader& read, std::uint64_t bytes, const std::string& path) {
   Model model;
-  Reader reader(bytes);
+  Reader reader(read, bytes, path);
   visit_members(reader, model);
   reader.end();
-  if (!is_valid(model)) Reader::fail();
+  if (!is_valid(model)) reader.fail();
   return model;
-} catch (const Error& error) {
-  throw Error(path + ": " + error.what());
+}
+
+Model model_from_bytes(const std::string& bytes, const std::string& path) {
+  const char* at = bytes.data();
+  const auto read = [&at](char* to, std::size_t count) {
+    std::memcpy(to, at, count);
+    at += count;
+  };
+  return read_model(read, bytes.size(), path);
 }
 
 }  // namespace tessera::program

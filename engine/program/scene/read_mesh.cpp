@@ -35,14 +35,16 @@ MeshData read_file(const Value& value, const std::string& base_folder, FileCache
   const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();
   auto model = cache.models.find(path.string());
   if (model == cache.models.end()) {
-    model = cache.models
-                .emplace(path.string(), file.checked([&] {
-                  return import_model(path.string(), ModelUse::mesh, cache.should_continue);
-                }))
-                .first;
+    model =
+        cache.models
+            .emplace(path.string(),
+                     file.checked([&] { return import_model(path.string(), ModelUse::mesh, cache.import); }))
+            .first;
   }
   scene.warnings.insert(scene.warnings.end(), model->second.warnings.begin(), model->second.warnings.end());
-  return model->second.mesh;
+  MeshData mesh = model->second.mesh;
+  mesh.primitive = model->second.parts.front().primitive;
+  return mesh;
 }
 
 // Reads a list of vectors into a flat array. JSON pointers are built for errors only, which keeps long lists

@@ -280,9 +280,9 @@ struct SceneFile::Content {
   FileCache models;
 };
 
-SceneFile::SceneFile(const std::string& path, std::function<bool()> should_continue)
+SceneFile::SceneFile(const std::string& path, const ImportOptions& options)
     : content_(std::make_unique<Content>()) {
-  content_->models.should_continue = std::move(should_continue);
+  content_->models.import = options;
   content_->path = path;
   content_->json = json::parse(read_text_file(path), path);
   Json still = content_->json;

@@ -1,7 +1,6 @@
 // Readers of the parts of a scene file.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -26,7 +25,7 @@ struct FileCache {
   std::map<std::string, std::shared_ptr<const Picture>> pictures;  ///< by path
   /// By path, or by JSON text if the texels are in the scene; and by sampler.
   std::map<std::string, std::shared_ptr<const Texture>> textures;
-  std::function<bool()> should_continue;  ///< polled while a model is read
+  ImportOptions import;  ///< for models
 };
 /// Appends every mesh of the file's `meshes`, and the importer's warnings.
 void read_meshes(const json::Value& value, const std::string& base_folder, FileCache& models, Scene& scene);

@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/program/import/model.h"
 #include "engine/program/scene/mesh_data.h"
 #include "engine/tessera/display_mode.hpp"
 #include "engine/tessera/tessera.hpp"
@@ -113,9 +114,9 @@ struct Scene {
 /// folder. Models and images are read once, textures once per sampler.
 class SceneFile {
  public:
-  /// @param should_continue  polled while models are read; false throws Cancelled
+  /// @param options  for reading models
   /// @throws Error, naming file, JSON pointer, what was found and what was expected
-  explicit SceneFile(const std::string& path, std::function<bool()> should_continue = {});
+  explicit SceneFile(const std::string& path, const ImportOptions& options = {});
   ~SceneFile();
   SceneFile(SceneFile&&) noexcept;
   /// Evaluates the scene at `time`, 0 .. 1.

@@ -1,6 +1,7 @@
 // Child processes with limits, and the models they send back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -30,7 +31,7 @@ TEST(ChildProcess, EnforcesLimitsAndReportsReason) {
                       std::this_thread::sleep_for(std::chrono::seconds(30));
                       return std::string();
                     }),
-            "file took more than 1 seconds; given up");
+            "file made no progress for 1 seconds; given up");
   int asked = 0;
   EXPECT_EQ(message({.should_continue = [&] { return ++asked < 4; }},
                     [] {
@@ -58,6 +59,71 @@ TEST(ChildProcess, EnforcesLimitsAndReportsReason) {
           .find("1024 MiB"),
       std::string::npos);
 #endif
+}
+
+// A child that takes two seconds in steps of a tenth is within a limit of one second.
+TEST(ChildProcess, LimitsTimeWithoutProgress) {
+  const ChildLimits limits{.time = std::chrono::milliseconds(1000)};
+  std::vector<double> shares;
+  ChildLimits with_progress = limits;
+  with_progress.progress = [&shares](double done) { shares.push_back(done); };
+  std::string result(3, ' ');
+  run_in_child(
+      "file", with_progress,
+      [](ChildOutput& output) {
+        for (int i = 1; i <= 20; ++i) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(100));
+          output.report(i / 20.0);
+        }
+        output.begin_result(3);
+        output.write("ab", 2);
+        output.write("c", 1);
+      },
+      [&result](const ByteReader& read, std::uint64_t bytes) {
+        EXPECT_EQ(bytes, 3u);
+        read(result.data(), 1);
+        read(&result[1], 2);
+      });
+  EXPECT_EQ(result, "abc");
+  EXPECT_GT(shares.size(), 10u);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_LE(shares.back(), 1);
+  const auto work = [](ChildOutput& output) {
+    for (int i = 0; i < 40; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      output.report(0.5);
+    }
+  };
+  EXPECT_THROW(run_in_child("file", limits, work, [](const ByteReader&, std::uint64_t) {}), Error)
+      << "the same share again is no progress";
+}
+
+// Large pieces are not buffered, small ones are.
+TEST(ChildProcess, SendsPiecesOfAllSizes) {
+  std::string sent;
+  for (std::size_t size : {1, 70'000, 3, 65'536, 65'535, 1, 5'000'000, 8})
+    sent.append(size, static_cast<char>('a' + sent.size() % 26));
+  std::string received(sent.size(), ' ');
+  run_in_child(
+      "file", {},
+      [&sent](ChildOutput& output) {
+        output.begin_result(sent.size());
+        std::size_t at = 0;
+        for (std::size_t size : {1, 70'000, 3, 65'536, 65'535, 1, 5'000'000, 8}) {
+          output.write(&sent[at], size);
+          at += size;
+        }
+      },
+      [&received](const ByteReader& read, std::uint64_t bytes) {
+        ASSERT_EQ(bytes, received.size());
+        std::size_t at = 0;
+        for (std::size_t size : {5, 200'000, 1, 65'536}) {
+          read(&received[at], size);
+          at += size;
+        }
+        read(&received[at], received.size() - at);
+      });
+  EXPECT_TRUE(received == sent);
 }
 
 Model small_model() {
