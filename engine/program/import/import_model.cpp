@@ -14,6 +14,7 @@
 #include "engine/program/import/model_images.h"
 #include "engine/program/import/model_normals.h"
 #include "engine/program/import/obj.h"
+#include "engine/program/import/stl.h"
 #include "engine/program/scene/file_extension.h"
 #include "engine/program/scene/loaded_module.h"
 
@@ -25,7 +26,7 @@ namespace fs = std::filesystem;
 template <class Function>
 Function* import_module_function(const char* name, const std::string& wanted_for) {
   void* const module =
-      load_module(TESSERA_IMPORT_FILE_NAME, wanted_for, ".obj works without it");
+      load_module(TESSERA_IMPORT_FILE_NAME, wanted_for, ".obj and .stl work without it");
   return reinterpret_cast<Function*>(function_of(module, TESSERA_IMPORT_FILE_NAME, name));
 }
 
@@ -69,6 +70,8 @@ void keep_visible(const std::string& path, Model& model) {
 }
 
 Model read_file(const std::string& path, ModelUse use, const ReportProgress& progress) {
+  const std::string extension = lower_case_extension(path);
+  if (extension == ".stl") return import_stl(path, use, progress);
   Model model = read_by_extension(path, use);
   if (use == ModelUse::display) {
     keep_visible(path, model);
