@@ -14,6 +14,7 @@
 #include "engine/program/import/model_images.h"
 #include "engine/program/import/model_normals.h"
 #include "engine/program/import/obj.h"
+#include "engine/program/import/ply.h"
 #include "engine/program/import/stl.h"
 #include "engine/program/scene/file_extension.h"
 #include "engine/program/scene/loaded_module.h"
@@ -26,7 +27,7 @@ namespace fs = std::filesystem;
 template <class Function>
 Function* import_module_function(const char* name, const std::string& wanted_for) {
   void* const module =
-      load_module(TESSERA_IMPORT_FILE_NAME, wanted_for, ".obj and .stl work without it");
+      load_module(TESSERA_IMPORT_FILE_NAME, wanted_for, ".obj, .ply and .stl work without it");
   return reinterpret_cast<Function*>(function_of(module, TESSERA_IMPORT_FILE_NAME, name));
 }
 
@@ -43,9 +44,10 @@ std::string import_by_module(const std::string& path) {
   }
 }
 
-Model read_by_extension(const std::string& path, ModelUse use) {
+Model read_by_extension(const std::string& path, ModelUse use, const ReportProgress& progress) {
   const std::string extension = lower_case_extension(path);
   if (extension == ".obj") return import_obj(path, use);
+  if (extension == ".ply") return import_ply(path, use, part_of(progress, 0, 0.7));
   if (extension == ".gltf" || extension == ".glb") return import_gltf(path);
   return model_from_bytes(import_by_module(path), path);
 }
@@ -72,7 +74,7 @@ void keep_visible(const std::string& path, Model& model) {
 Model read_file(const std::string& path, ModelUse use, const ReportProgress& progress) {
   const std::string extension = lower_case_extension(path);
   if (extension == ".stl") return import_stl(path, use, progress);
-  Model model = read_by_extension(path, use);
+  Model model = read_by_extension(path, use, progress);
   if (use == ModelUse::display) {
     keep_visible(path, model);
     decode_images(path, model);
