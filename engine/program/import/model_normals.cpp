@@ -207,39 +207,6 @@ class PositionNormals {
   std::vector<std::uint32_t> sorted_;  // corners by group
 };
 
-/// Normals of all triangles of a mesh.
-struct FaceNormals {
-  std::vector<Double3> areas;   // length twice the triangle's area
-  std::vector<double> lengths;  // lengths of `areas`
-  std::vector<Double3> units;
-
-  explicit FaceNormals(const MeshData& mesh) {
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-      areas.push_back(face_normal(mesh, i));
-      lengths.push_back(std::sqrt(dot(areas.back(), areas.back())));
-      units.push_back(unit(areas.back()));
-    }
-  }
-
-  /// The mean over those of the corners' triangles that belong; null if they cancel out.
-  template <class Belongs>
-  Double3 mean(std::span<const std::uint32_t> corners, const Belongs& belongs) const {
-    Double3 sum{};
-    double length = 0;
-    for (const std::uint32_t corner : corners)
-      if (const std::uint32_t face = corner / 3; belongs(face)) {
-        for (std::size_t k = 0; k < 3; ++k) sum[k] += areas[face][k];
-        length += lengths[face];
-      }
-    constexpr double kMinShare = 1e-9;  // below it, the sum is made of rounding errors
-    return std::sqrt(dot(sum, sum)) > kMinShare * length ? unit(sum) : Double3{};
-  }
-};
-
-Float3 rounded(const Double3& n) {
-  return {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
-}
-
 }  // namespace
 
 bool is_missing_normal(const float* normal) {
