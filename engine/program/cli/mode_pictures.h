@@ -15,7 +15,8 @@ namespace tessera::program::cli {
 class ModeScenes {
  public:
   /// @param input  empty: the built-in scene
-  ModeScenes(std::string input, const ImportRequest& import) : input_(std::move(input)), import_(import) {}
+  explicit ModeScenes(std::string input, const ImportRequest& import = {})
+      : input_(std::move(input)), import_(import) {}
   /// Returns the scene in a mode, with an adaptive palette if the mode's can be chosen. Prints its warnings
   /// on stderr when it is read first.
   /// @throws Error for a file that cannot be read

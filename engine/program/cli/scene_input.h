@@ -13,7 +13,8 @@ namespace tessera::program::cli {
 struct ImportRequest {
   int memory_mib = 0;  ///< limit of the process that reads a model; 0: a quarter of the machine's memory
   int seconds = 10;    ///< limit without progress
-  std::string format{};  ///< of standard input: "json", or a model's file name extension without its dot
+  std::string
+      format{};  ///< format of standard input: "json", or a model's file name extension without its dot
 };
 
 /// A scene, evaluated at the time of each frame.

@@ -26,7 +26,8 @@ void add_creased_normals(MeshData& mesh, double crease_degrees = kCreaseDegrees,
                          std::span<const std::uint32_t> groups = {}, const ReportProgress& progress = {});
 
 /// Does so for the triangles of a model. Lines and points get normals of length 0.
-void add_creased_normals(Model& model, double crease_degrees = kCreaseDegrees, const ReportProgress& progress = {});
+void add_creased_normals(Model& model, double crease_degrees = kCreaseDegrees,
+                         const ReportProgress& progress = {});
 
 /// Winds triangles counter-clockwise when viewed from the side their normals point to, except those of parts
 /// that are not double-sided: there the winding tells the faces apart.
