@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "engine/program/scene/read_scene.h"
+#include "engine/program/scene/state_names.h"
 #include "engine/program/scene/suggest.h"
 
 namespace tessera::program {
@@ -79,7 +80,7 @@ DepthState read_depth(const Value& value, const Scene& scene) {
   if (value.json().is_boolean()) value.fail("false or an object");
   const Object object(value, {"test", "write"});
   DepthState depth;
-  if (const auto test = object.find("test")) depth.test = read_compare(*test);
+  if (const auto test = object.find("test")) depth.test = test->choice(kCompares);
   if (const auto write = object.find("write")) depth.write = write->boolean();
   return depth;
 }
@@ -100,18 +101,9 @@ void read_shading(const Object& object, const Names& names, DrawState& state) {
   if (const auto material = object.find("material")) state.material = read_material_name(*material, names);
   if (const auto material = object.find("back_material"))
     state.back_material = read_material_name(*material, names);
-  if (const auto shading = object.find("shading"))
-    state.shading = shading->choice<Shading>(
-        {{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}});
+  if (const auto shading = object.find("shading")) state.shading = shading->choice(kShadings);
   if (const auto lighting = object.find("lighting")) state.lighting = lighting->boolean();
-  if (const auto mode = object.find("color_material"))
-    state.color_material =
-        mode->choice<ColorMaterial>({{"none", ColorMaterial::none},
-                                     {"ambient_and_diffuse", ColorMaterial::ambient_and_diffuse},
-                                     {"diffuse", ColorMaterial::diffuse},
-                                     {"ambient", ColorMaterial::ambient},
-                                     {"emission", ColorMaterial::emission},
-                                     {"specular", ColorMaterial::specular}});
+  if (const auto mode = object.find("color_material")) state.color_material = mode->choice(kColorMaterials);
   if (const auto vertex = object.find("provoking_vertex"))
     state.provoking_vertex =
         vertex->choice<ProvokingVertex>({{"last", ProvokingVertex::last}, {"first", ProvokingVertex::first}});
@@ -130,8 +122,7 @@ void read_shading(const Object& object, const Names& names, DrawState& state) {
 // Transform, facing and viewport of a draw.
 void read_target(const Object& object, DrawState& state) {
   if (const auto transform = object.find("transform")) state.transform = read_transform(*transform);
-  if (const auto cull = object.find("cull"))
-    state.cull = cull->choice<Cull>({{"none", Cull::none}, {"back", Cull::back}, {"front", Cull::front}});
+  if (const auto cull = object.find("cull")) state.cull = cull->choice(kCulls);
   if (const auto front = object.find("front_face"))
     state.front_face = front->choice<FrontFace>({{"ccw", FrontFace::ccw}, {"cw", FrontFace::cw}});
   if (const auto range = object.find("depth_range")) {

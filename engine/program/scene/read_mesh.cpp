@@ -6,6 +6,7 @@
 #include "engine/program/import/model.h"
 #include "engine/program/scene/builtin_mesh.h"
 #include "engine/program/scene/read_scene.h"
+#include "engine/program/scene/state_names.h"
 
 namespace tessera::program {
 namespace {
@@ -119,17 +120,7 @@ MeshData read_inline(const Value& value) {
   const Value positions = object.require("positions");
   const std::size_t vertices = positions.size();
   MeshData mesh;
-  if (const auto primitive = object.find("primitive"))
-    mesh.primitive = primitive->choice<Primitive>({{"points", Primitive::points},
-                                                   {"lines", Primitive::lines},
-                                                   {"line_strip", Primitive::line_strip},
-                                                   {"line_loop", Primitive::line_loop},
-                                                   {"triangles", Primitive::triangles},
-                                                   {"triangle_strip", Primitive::triangle_strip},
-                                                   {"triangle_fan", Primitive::triangle_fan},
-                                                   {"quads", Primitive::quads},
-                                                   {"quad_strip", Primitive::quad_strip},
-                                                   {"polygon", Primitive::polygon}});
+  if (const auto primitive = object.find("primitive")) mesh.primitive = primitive->choice(kPrimitives);
   if (vertices == 0) {
     const int min_count = min_vertices(mesh.primitive);
     positions.fail("at least " + std::to_string(min_count) + (min_count == 1 ? " position" : " positions"));

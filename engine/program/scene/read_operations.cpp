@@ -1,5 +1,6 @@
 // Reads the per-fragment operations of a draw.
 #include "engine/program/scene/read_scene.h"
+#include "engine/program/scene/state_names.h"
 
 namespace tessera::program {
 namespace {
@@ -20,7 +21,7 @@ StencilOp read_stencil_op(const Value& value) {
 
 StencilFace read_face(const Object& object) {
   StencilFace face;
-  if (const auto func = object.find("func")) face.func = read_compare(*func);
+  if (const auto func = object.find("func")) face.func = func->choice(kCompares);
   if (const auto ref = object.find("ref")) face.ref = static_cast<std::uint32_t>(ref->integer(0, 255));
   if (const auto mask = object.find("mask")) face.mask = static_cast<std::uint32_t>(mask->integer(0, 255));
   if (const auto op = object.find("fail")) face.fail = read_stencil_op(*op);
@@ -39,34 +40,15 @@ StencilState read_stencil(const Value& value) {
   return state;
 }
 
-BlendFactor read_factor(const Value& value) {
-  using enum BlendFactor;
-  return value.choice<BlendFactor>({{"zero", zero},
-                                    {"one", one},
-                                    {"src_color", src_color},
-                                    {"one_minus_src_color", one_minus_src_color},
-                                    {"dst_color", dst_color},
-                                    {"one_minus_dst_color", one_minus_dst_color},
-                                    {"src_alpha", src_alpha},
-                                    {"one_minus_src_alpha", one_minus_src_alpha},
-                                    {"dst_alpha", dst_alpha},
-                                    {"one_minus_dst_alpha", one_minus_dst_alpha},
-                                    {"constant_color", constant_color},
-                                    {"one_minus_constant_color", one_minus_constant_color},
-                                    {"constant_alpha", constant_alpha},
-                                    {"one_minus_constant_alpha", one_minus_constant_alpha},
-                                    {"src_alpha_saturate", src_alpha_saturate}});
-}
-
 BlendState read_blend(const Value& value) {
   const Object object(value, {"src", "dst", "src_alpha", "dst_alpha", "equation", "color"});
   BlendState blend;
-  if (const auto factor = object.find("src")) blend.src = read_factor(*factor);
-  if (const auto factor = object.find("dst")) blend.dst = read_factor(*factor);
+  if (const auto factor = object.find("src")) blend.src = factor->choice(kBlendFactors);
+  if (const auto factor = object.find("dst")) blend.dst = factor->choice(kBlendFactors);
   if (const auto factor = object.find("src_alpha"); factor && !factor->json().is_null())
-    blend.src_alpha = read_factor(*factor);
+    blend.src_alpha = factor->choice(kBlendFactors);
   if (const auto factor = object.find("dst_alpha"); factor && !factor->json().is_null())
-    blend.dst_alpha = read_factor(*factor);
+    blend.dst_alpha = factor->choice(kBlendFactors);
   if (const auto equation = object.find("equation"))
     blend.equation = equation->choice<BlendEquation>({{"add", BlendEquation::add},
                                                       {"subtract", BlendEquation::subtract},
@@ -99,17 +81,6 @@ LogicOp read_logic(const Value& value) {
 
 }  // namespace
 
-Compare read_compare(const Value& value) {
-  return value.choice<Compare>({{"never", Compare::never},
-                                {"less", Compare::less},
-                                {"equal", Compare::equal},
-                                {"lequal", Compare::lequal},
-                                {"greater", Compare::greater},
-                                {"notequal", Compare::notequal},
-                                {"gequal", Compare::gequal},
-                                {"always", Compare::always}});
-}
-
 void read_operations(const Object& object, const FrameBufferFormat& format, DrawState& state) {
   if (const auto offset = object.find("polygon_offset")) {
     if (!offset->json().is_array() || offset->size() != 2) offset->fail("[factor, units]");
@@ -122,7 +93,7 @@ void read_operations(const Object& object, const FrameBufferFormat& format, Draw
     if (is_index) test->refuse("an index buffer has no alpha to test");
     const Object members(*test, {"func", "ref"});
     state.alpha_test.emplace();
-    if (const auto func = members.find("func")) state.alpha_test->func = read_compare(*func);
+    if (const auto func = members.find("func")) state.alpha_test->func = func->choice(kCompares);
     if (const auto ref = members.find("ref")) state.alpha_test->ref = ref->real(0, 1);
   }
   if (const auto stencil = object.find("stencil")) {

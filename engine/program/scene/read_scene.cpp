@@ -10,6 +10,7 @@
 #include "engine/program/scene/dither_names.h"
 #include "engine/program/scene/embedded.h"
 #include "engine/program/scene/scene_mode.h"
+#include "engine/program/scene/state_names.h"
 #include "engine/program/scene/text_file.h"
 
 namespace tessera::program {
@@ -157,9 +158,7 @@ LightModel read_light_model(const Value& value) {
   if (const auto ambient = object.find("ambient")) model.ambient = ambient->color();
   if (const auto local = object.find("local_viewer")) model.local_viewer = local->boolean();
   if (const auto two_sided = object.find("two_sided")) model.two_sided = two_sided->boolean();
-  if (const auto specular = object.find("specular"))
-    model.specular =
-        specular->choice<SpecularModel>({{"blinn", SpecularModel::blinn}, {"phong", SpecularModel::phong}});
+  if (const auto specular = object.find("specular")) model.specular = specular->choice(kSpecularModels);
   return model;
 }
 

@@ -41,7 +41,6 @@ std::vector<std::string> read_textures(const json::Value& value, const std::stri
 using Materials = std::map<std::string, Material, std::less<>>;
 Materials read_materials(const json::Value& value);
 
-Compare read_compare(const json::Value& value);
 /// Reads polygon offset, alpha test, stencil, blending and logic operation.
 void read_operations(const json::Object& object, const FrameBufferFormat& format, DrawState& state);
 /// Reads the values of read_operations(), and scissor, depth test and masks. A number for `depth` is ignored:

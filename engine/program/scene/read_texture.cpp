@@ -4,6 +4,7 @@
 
 #include "engine/program/imageio/picture.h"
 #include "engine/program/scene/read_scene.h"
+#include "engine/program/scene/state_names.h"
 #include "engine/program/scene/text_file.h"
 
 namespace tessera::program {
@@ -12,27 +13,14 @@ namespace {
 using json::Object;
 using json::Value;
 
-TextureWrap read_wrap(const Value& value) {
-  return value.choice<TextureWrap>({{"repeat", TextureWrap::repeat},
-                                    {"clamp_to_edge", TextureWrap::clamp_to_edge},
-                                    {"mirrored_repeat", TextureWrap::mirrored_repeat}});
-}
-
 TextureSampler read_sampler(const Object& object) {
   TextureSampler sampler;
   if (const auto mag = object.find("mag"))
     sampler.mag =
         mag->choice<TextureFilter>({{"nearest", TextureFilter::nearest}, {"linear", TextureFilter::linear}});
-  if (const auto min = object.find("min"))
-    sampler.min =
-        min->choice<TextureFilter>({{"nearest", TextureFilter::nearest},
-                                    {"linear", TextureFilter::linear},
-                                    {"nearest_mipmap_nearest", TextureFilter::nearest_mipmap_nearest},
-                                    {"linear_mipmap_nearest", TextureFilter::linear_mipmap_nearest},
-                                    {"nearest_mipmap_linear", TextureFilter::nearest_mipmap_linear},
-                                    {"linear_mipmap_linear", TextureFilter::linear_mipmap_linear}});
-  if (const auto wrap = object.find("wrap_s")) sampler.wrap_s = read_wrap(*wrap);
-  if (const auto wrap = object.find("wrap_t")) sampler.wrap_t = read_wrap(*wrap);
+  if (const auto min = object.find("min")) sampler.min = min->choice(kTextureFilters);
+  if (const auto wrap = object.find("wrap_s")) sampler.wrap_s = wrap->choice(kTextureWraps);
+  if (const auto wrap = object.find("wrap_t")) sampler.wrap_t = wrap->choice(kTextureWraps);
   return sampler;
 }
 
