@@ -107,7 +107,8 @@ std::optional<ColorTexture> color_texture_of(const aiMaterial& from) {
     aiString name;
     aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
     ColorTexture texture;
-    if (from.GetTexture(type, 0, &name, nullptr, &texture.channel, nullptr, nullptr, modes) != AI_SUCCESS)
+    if (from.GetTexture(type, 0, &name, nullptr, &texture.channel, nullptr, nullptr, modes) != AI_SUCCESS ||
+        name.length == 0)
       continue;
     texture.name = name.C_Str();
     texture.sampler.wrap_s = wrap_of(modes[0]);

@@ -41,6 +41,11 @@ class Converter {
       materials_.push_back(material_of(*scene_.mMaterials[m]));
       textures_.push_back(color_texture_of(*scene_.mMaterials[m]));
     }
+    has_mapped_mesh_.resize(scene_.mNumMaterials);
+    for (unsigned m = 0; m < scene_.mNumMeshes; ++m)
+      if (const aiMesh& mesh = *scene_.mMeshes[m]; mesh.mMaterialIndex < scene_.mNumMaterials)
+        has_mapped_mesh_[mesh.mMaterialIndex] =
+            has_mapped_mesh_[mesh.mMaterialIndex] || mesh.HasTextureCoords(0);
   }
 
   Model converted() {
@@ -164,12 +169,13 @@ class Converter {
     for (std::size_t i = 0; i < std::size_t{embedded->mWidth} * embedded->mHeight; ++i) {
       const aiTexel& texel = embedded->pcData[i];
       image.pixels.insert(image.pixels.end(), {texel.r, texel.g, texel.b, texel.a});
+      image.has_alpha = image.has_alpha || texel.a < 255;
     }
     return known->second;
   }
 
   void set_texture(unsigned material, ModelPart& part) {
-    if (!textures_[material]) return;
+    if (!textures_[material] || !has_mapped_mesh_[material]) return;
     part.texture = model_.textures.size();
     model_.textures.push_back({add_image(textures_[material]->name), textures_[material]->sampler});
     Color& diffuse = part.material.diffuse;
@@ -207,6 +213,7 @@ class Converter {
   std::vector<bool> light_used_;
   std::vector<Material> materials_;
   std::vector<std::optional<ColorTexture>> textures_;  // one per material
+  std::vector<bool> has_mapped_mesh_;                  // materials used with texture coordinates
   std::map<std::string, std::size_t> image_numbers_;
   // Vertex indices by kind of primitive (0: triangles, 1: lines, 2: points) and material.
   std::map<std::pair<unsigned, unsigned>, std::vector<std::uint32_t>> by_material_;

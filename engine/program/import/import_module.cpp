@@ -38,8 +38,10 @@ Model read(const std::string& path) {
   if (extension.empty() || !importer.IsExtensionSupported(extension))
     throw Error("the file name extension is \"" + extension +
                 "\", expected one of those listed by \"tessera formats\"");
-  const aiScene* const scene = importer.ReadFile(
-      path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+  // GenUVCoords: texture coordinates of materials that wrap a picture around a box, sphere or cylinder.
+  const aiScene* const scene =
+      importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
+                                  aiProcess_SortByPType | aiProcess_GenUVCoords);
   if (scene == nullptr) refuse(importer.GetErrorString());
   const bool is_collada = extension == ".dae" || extension == ".zae";
   Model model = model_of(*scene, is_collada);

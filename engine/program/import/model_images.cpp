@@ -30,16 +30,24 @@ std::optional<fs::path> find_ignoring_case(const fs::path& folder, const std::st
   return std::nullopt;
 }
 
+/// assimp's name for the picture of formats that do not name it: that of the model.
+constexpr std::string_view kUnnamedPicture = "$texture_dummy";
+
 /// The path of an image file; the plain one if there is no such file.
 fs::path image_path(const std::string& model_path, const std::string& name) {
   const fs::path folder = fs::path(model_path).parent_path();
   std::string slashes = name;
   std::ranges::replace(slashes, '\\', '/');
-  const fs::path candidates[] = {folder / name, folder / slashes, folder / fs::path(slashes).filename()};
+  fs::path file = fs::path(slashes).filename();
+  if (file.stem() == kUnnamedPicture)
+    file = fs::path(model_path).filename().replace_extension(file.extension());
+  // Some exporters begin relative paths with a slash.
+  const fs::path candidates[] = {folder / name, folder / slashes, folder / fs::path(slashes).relative_path(),
+                                 folder / file};
   std::error_code error;  // such as a name that is too long
   for (const fs::path& path : candidates)
     if (fs::is_regular_file(path, error)) return path;
-  for (const fs::path& path : {candidates[1], candidates[2]})
+  for (const fs::path& path : {candidates[2], candidates[3]})
     if (const auto found = find_ignoring_case(path.has_parent_path() ? path.parent_path() : fs::path("."),
                                               path.filename().string());
         found && fs::is_regular_file(*found, error))
