@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/program/cli/choice_option.h"
-#include "engine/program/cli/parse_overrides.h"
 #include "engine/program/cli/validators.h"
 #include "engine/program/scene/dither_names.h"
 #include "engine/program/scene/quality_names.h"
@@ -83,17 +82,7 @@ void add_output(CLI::App& command, RenderRequest& request) {
 }
 
 void add_scene_overrides(CLI::App& command, SceneOverrides& overrides) {
-  command
-      .add_option_function<std::string>(
-          "--size",
-          [&overrides](const std::string& text) {
-            if (!parse_size(text, overrides))
-              throw CLI::ValidationError("--size", "found \"" + text +
-                                                       "\", expected WIDTHxHEIGHT, each 1 to " +
-                                                       std::to_string(kMaxFrameBufferSize));
-          },
-          "size of the picture; default: the scene's, or 640x480 for a model")
-      ->option_text("WIDTHxHEIGHT");
+  add_size(command, overrides);
   add_choice<std::optional<Shading>, Shading>(
       command, "--shading", overrides.shading,
       {{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}},
@@ -188,33 +177,6 @@ void add_planes(CLI::App& command, RenderRequest& request) {
                   "bits are PBM's 1")
       ->option_text("DIR")
       ->check(not_empty("DIR's name"));
-}
-
-void add_view(CLI::App& command, SceneOverrides& overrides) {
-  command
-      .add_option_function<std::string>(
-          "--camera",
-          [&overrides](const std::string& text) {
-            if (!parse_camera(text, overrides))
-              throw CLI::ValidationError(
-                  "--camera",
-                  "found \"" + text +
-                      "\", expected EX,EY,EZ,TX,TY,TZ[,FOVY]: eye, target, vertical angle in degrees");
-          },
-          "camera for the whole frame, in place of the scene's or the model's")
-      ->option_text("EX,EY,EZ,TX,TY,TZ[,FOVY]");
-  command
-      .add_option_function<std::string>(
-          "--light",
-          [&overrides](const std::string& text) {
-            if (!parse_light(text, overrides))
-              throw CLI::ValidationError(
-                  "--light",
-                  "found \"" + text + "\", expected X,Y,Z[,W]: a position, or with W = 0 a direction");
-          },
-          "white light for the whole frame, in place of the scene's; may be repeated")
-      ->option_text("X,Y,Z[,W]")
-      ->trigger_on_parse();  // called once per occurrence
 }
 
 /// Options that change how a scene or a model is drawn.

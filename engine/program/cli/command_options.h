@@ -1,4 +1,5 @@
-// Declares the options of `tessera render`, `explain`, `compare`, `modes`, `color`, `display` and `selftest`.
+// Declares the options of `tessera render`, `explain`, `compare`, `modes`, `color`, `display`,
+// `scene` and `selftest`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,7 @@
 #include "engine/program/cli/explain_command.h"
 #include "engine/program/cli/modes_command.h"
 #include "engine/program/cli/render_command.h"
+#include "engine/program/cli/scene_command.h"
 #include "engine/program/cli/selftest_command.h"
 
 namespace tessera::program::cli {
@@ -20,11 +22,16 @@ CLI::App* add_compare(CLI::App& program, CompareRequest& request);
 CLI::App* add_modes(CLI::App& program, ModesRequest& request);
 CLI::App* add_color(CLI::App& program, ColorRequest& request);
 CLI::App* add_display(CLI::App& program, DisplayCommandRequest& request);
+CLI::App* add_scene(CLI::App& program, SceneRequest& request);
 CLI::App* add_selftest(CLI::App& program, SelftestRequest& request);
 
 /// Adds --import-memory and --import-seconds to a command.
 void add_import_limits(CLI::App& command, ImportRequest& request);
 
+/// Adds --size to a command.
+void add_size(CLI::App& command, SceneOverrides& overrides);
+/// Adds --camera and --light to a command.
+void add_view(CLI::App& command, SceneOverrides& overrides);
 /// Adds --display, --scale, --part, --gain and --frame-ms to a command.
 void add_display_view(CLI::App& command, DisplayRequest& request);
 

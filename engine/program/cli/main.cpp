@@ -21,6 +21,7 @@
 #include "engine/program/cli/modes_command.h"
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/render_command.h"
+#include "engine/program/cli/scene_command.h"
 #include "engine/program/cli/selftest_command.h"
 #include "engine/program/cli/standard_output.h"
 #include "engine/program/cli/validators.h"
@@ -78,8 +79,9 @@ std::string unexpected_argument(const CLI::App& program) {
   if (std::filesystem::exists(word, error))
     return message + "; did you mean \"tessera render " + word + "\"?";
   return "unknown command \"" + word + "\"" +
-         did_you_mean(word, Names{"render", "explain", "compare", "info", "selftest", "bench", "price",
-                                  "accuracy", "modes", "color", "display", "formats", "completion", "man"});
+         did_you_mean(word,
+                      Names{"render", "explain", "compare", "info", "selftest", "bench", "price", "accuracy",
+                            "modes", "color", "display", "scene", "formats", "completion", "man"});
 }
 
 int usage_error(const std::string& message, const CLI::App& program) {
@@ -128,6 +130,7 @@ struct Requests {
   ModesRequest modes;
   ColorRequest color;
   DisplayCommandRequest display;
+  SceneRequest scene;
   SelftestRequest selftest;
   std::string shell;  ///< for `completion`
 };
@@ -140,6 +143,7 @@ struct Commands {
   CLI::App* modes;
   CLI::App* color;
   CLI::App* display;
+  CLI::App* scene;
   CLI::App* info;
   CLI::App* selftest;
   CLI::App* bench;
@@ -186,6 +190,7 @@ Commands add_commands(CLI::App& program, Requests& requests) {
   commands.modes = add_modes(program, requests.modes);
   commands.color = add_color(program, requests.color);
   commands.display = add_display(program, requests.display);
+  commands.scene = add_scene(program, requests.scene);
   commands.info = add_plain("info", "Describe this machine and what Tessera uses of it", "tessera info");
   commands.selftest = add_selftest(program, requests.selftest);
   commands.bench =
@@ -260,6 +265,7 @@ int run(int argument_count, char** arguments) {
   if (commands.modes->parsed()) std::cout << modes_text(requests.modes);
   else if (commands.color->parsed()) std::cout << colors_text(requests.color);
   else if (commands.display->parsed()) display(requests.display);
+  else if (commands.scene->parsed()) write_model_scene(requests.scene);
   else if (commands.info->parsed()) std::cout << info_text();
   else if (commands.formats->parsed()) std::cout << formats_text();
   else if (commands.completion->parsed()) std::cout << completion_script(requests.shell, docs_of(program));

@@ -44,9 +44,10 @@ bool parse_camera(const std::string& text, SceneOverrides& overrides) {
   lens.far = distance * 100;
   if (!(lens.fovy > 0 && lens.fovy < 180) || distance == 0) return false;
   const bool along_y = n[0] == n[3] && n[2] == n[5];
-  overrides.camera = SceneCamera{
-      .view = look_at({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, along_y ? Vec3{0, 0, -1} : Vec3{0, 1, 0}),
-      .projection = lens};
+  overrides.camera = camera_at({.eye = {n[0], n[1], n[2]},
+                                .target = {n[3], n[4], n[5]},
+                                .up = along_y ? Vec3{0, 0, -1} : Vec3{0, 1, 0}},
+                               lens);
   return true;
 }
 

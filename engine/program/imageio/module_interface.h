@@ -15,9 +15,9 @@ typedef void tessera_imageio_take_function(void* user, const unsigned char* byte
 /* Each function returns 0, or 1 with a reason in `message` (truncated to message_size, always terminated).
    The program reads and writes the files: some of OpenImageIO's writers do not notice a full disk. */
 
-/* Encodes RGBA pixels of 8 bits per component, rows from the top, as an image without alpha.
+/* Encodes RGBA pixels of 8 bits per component, rows from the top.
    extension    selects the format: ".png"
-   channels     in the file: 3, or 4 with alpha
+   channels     of the image: 3, without alpha, or 4
    compression  of PNG, 0 .. 9; -1: a fast default */
 typedef int tessera_imageio_encode_function(const char* extension, const unsigned char* rgba, int width,
                                             int height, ptrdiff_t stride_bytes, int channels, int compression,

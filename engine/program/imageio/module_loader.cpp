@@ -23,13 +23,13 @@ const unsigned char* bytes_of(const std::string& text) {
 
 }  // namespace
 
-std::string encode_by_module(const Picture& picture, const std::string& extension, int compression) {
+std::string encode_by_module(const Picture& picture, const std::string& extension, int channels,
+                             int compression) {
   auto* const encode =
       imageio_module_function<tessera_imageio_encode_function>(TESSERA_IMAGEIO_ENCODE_NAME, extension);
   return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
     return encode(extension.c_str(), picture.rgba.data(), picture.width, picture.height,
-                  4 * std::ptrdiff_t{picture.width}, picture.keeps_alpha ? 4 : 3, compression, take, user,
-                  message, size);
+                  4 * std::ptrdiff_t{picture.width}, channels, compression, take, user, message, size);
   });
 }
 

@@ -95,7 +95,7 @@ std::string encode_picture(const Picture& picture, const std::string& path, int 
     if (extension == ".pgm") return pgm(picture);
     if (extension == ".pfm") return pfm(picture);
     if (extension == ".raw") return raw(picture);
-    return encode_by_module(picture, extension, compression);
+    return encode_by_module(picture, extension, 3, compression);
   });
 }
 
@@ -166,6 +166,11 @@ void write_indexed_png(const IndexedPicture& picture, const std::string& path, i
 
 void write_picture(const Picture& picture, const std::string& path, int compression) {
   write_file_atomically(path, encode_picture(picture, path, compression));
+}
+
+void write_png_with_alpha(const Picture& picture, const std::string& path, int compression) {
+  write_file_atomically(path,
+                        encoded_for(path, [&] { return encode_by_module(picture, ".png", 4, compression); }));
 }
 
 std::optional<std::filesystem::path> require_writable_picture(const std::string& path) {

@@ -41,10 +41,15 @@ constexpr int kDefaultCompression = -1;
 
 /// Writes a picture in the format of the path's extension: .ppm (24 bits), .pgm (luminance), .pfm (floats, 1
 /// is full intensity), .raw (RGBA bytes), .png, and every other format of OpenImageIO.
+/// - Only .raw has alpha.
 /// - An existing file is either replaced as a whole or stays as it was.
 /// @param compression  PNG level, 0 .. 9, or kDefaultCompression; other formats ignore it
 /// @throws Error, naming the path, for an unknown format, a missing module, or a file that cannot be written
 void write_picture(const Picture& picture, const std::string& path, int compression = kDefaultCompression);
+
+/// Writes a PNG file of RGBA pixels. write_picture() leaves alpha out.
+void write_png_with_alpha(const Picture& picture, const std::string& path,
+                          int compression = kDefaultCompression);
 
 /// Checks, before expensive work, that write_picture() can succeed: it must know the format, and
 /// require_writable() must succeed.

@@ -36,7 +36,7 @@ double distance_of(const std::uint32_t* corners, const std::vector<float>& posit
 
 void sort_blended(BlendedTriangles& blended, Scene& scene) {
   MeshData& mesh = scene.meshes[blended.mesh];
-  const std::size_t count = blended.state_of.size();
+  const std::size_t count = blended.draw_of.size();
   std::vector<double> distance(count);
   for (std::size_t i = 0; i < count; ++i)
     distance[i] = distance_of(&blended.indices[3 * i], mesh.positions, scene.camera.view);
@@ -52,16 +52,15 @@ void sort_blended(BlendedTriangles& blended, Scene& scene) {
     return draw != nullptr && draw->mesh == blended.mesh;
   });
   mesh.indices.clear();
-  std::size_t run_begin = 0;  // triangles of one state become one draw
+  std::size_t run_begin = 0;  // consecutive triangles of one draw
   for (std::size_t i = 0; i < count; ++i) {
     mesh.indices.insert(mesh.indices.end(), &blended.indices[3 * std::size_t{order[i]}],
                         &blended.indices[3 * std::size_t{order[i]}] + 3);
-    const std::uint32_t state = blended.state_of[order[i]];
-    if (i + 1 < count && blended.state_of[order[i + 1]] == state) continue;
-    DrawCommand draw{.mesh = blended.mesh,
-                     .state = blended.states[state],
-                     .first_index = 3 * run_begin,
-                     .index_count = 3 * (i + 1 - run_begin)};
+    const std::uint32_t number = blended.draw_of[order[i]];
+    if (i + 1 < count && blended.draw_of[order[i + 1]] == number) continue;
+    DrawCommand draw = blended.draws[number];
+    draw.first_index = 3 * run_begin;
+    draw.index_count = 3 * (i + 1 - run_begin);
     scene.frame.push_back({draw, ""});
     run_begin = i + 1;
   }

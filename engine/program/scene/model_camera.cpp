@@ -67,9 +67,8 @@ SceneCamera framing_camera(const MeshData& mesh, double aspect, bool all_sides, 
   // Keeps the eye away from models that are long in the direction of view.
   distance = std::max(distance, 1.5 * radius);
   const Vec3 eye{center.x + distance * back.x, center.y + distance * back.y, center.z + distance * back.z};
-  return {
-      .view = look_at(eye, center, {0, 1, 0}),
-      .projection = Lens{.fovy = kFovy, .near = distance - 1.01 * radius, .far = distance + 1.01 * radius}};
+  return camera_at({.eye = eye, .target = center, .up = {0, 1, 0}},
+                   {.fovy = kFovy, .near = distance - 1.01 * radius, .far = distance + 1.01 * radius});
 }
 
 // Returns a camera of the file, unless the whole model lies behind it. For depth precision, near and far are

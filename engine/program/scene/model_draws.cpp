@@ -1,18 +1,37 @@
 #include "engine/program/scene/model_draws.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "engine/program/imageio/picture.h"
+
 namespace tessera::program {
 namespace {
 
-std::shared_ptr<const Texture> texture_of(const ModelImage& image, const TextureSampler& sampler) {
-  return std::make_shared<const Texture>(
-      TextureImage{
-          .pixels = image.pixels.data(), .width = image.width, .height = image.height, .channels = 4},
-      sampler);
+std::shared_ptr<const Picture> picture_of(ModelImage& image) {
+  auto picture = std::make_shared<Picture>(0, 0);
+  picture->width = image.width;
+  picture->height = image.height;
+  picture->rgba = std::move(image.pixels);
+  return picture;
+}
+
+/// Moves the images of the model into the scene.
+void add_textures(Model& model, Scene& scene) {
+  std::vector<std::shared_ptr<const Picture>> pictures;
+  for (ModelImage& image : model.images) pictures.push_back(picture_of(image));
+  for (const ModelTexture& texture : model.textures) {
+    const std::shared_ptr<const Picture>& picture = pictures[texture.image];
+    scene.textures.push_back(std::make_shared<const Texture>(TextureImage{.pixels = picture->rgba.data(),
+                                                                          .width = picture->width,
+                                                                          .height = picture->height,
+                                                                          .channels = 4},
+                                                             texture.sampler));
+    scene.texture_pictures.push_back(picture);
+  }
 }
 
 bool has_alpha(const ModelPart& part, const MeshData& mesh, const Model& model) {
@@ -42,55 +61,61 @@ DrawState state_of(const ModelPart& part, const Scene& scene) {
   return state;
 }
 
-void append(const std::vector<float>& from, std::vector<float>& to) {
-  to.insert(to.end(), from.begin(), from.end());
+/// Appends an attribute of a part, or the same value for each of its vertices if the part lacks it.
+void append(const std::vector<float>& from, std::size_t vertices, std::initializer_list<float> value,
+            std::vector<float>& to) {
+  if (!from.empty()) to.insert(to.end(), from.begin(), from.end());
+  else
+    for (std::size_t i = 0; i < vertices; ++i) to.insert(to.end(), value);
 }
 
-/// Parts without an attribute get a value that changes nothing.
-void fill_up(std::vector<float>& values, std::size_t vertices, std::size_t components, float value) {
-  values.resize(vertices * components, value);
-}
-
-/// Collects parts that blend in one mesh.
+/// Collects parts that blend in one mesh. Parts without an attribute get a value that changes nothing.
 class BlendedParts {
  public:
-  void add(MeshData&& part, const DrawState& state) {
-    const auto first = static_cast<std::uint32_t>(mesh_.vertex_count());
-    if (!part.colors.empty()) fill_up(mesh_.colors, first, 4, 1);
-    if (!part.texcoords.empty()) fill_up(mesh_.texcoords, first, 2, 0);
-    if (!part.normals.empty()) fill_up(mesh_.normals, first, 3, 0);
-    append(part.positions, mesh_.positions);
-    const std::size_t vertices = mesh_.vertex_count();
-    append(part.colors, mesh_.colors);
-    append(part.texcoords, mesh_.texcoords);
-    append(part.normals, mesh_.normals);
-    if (!mesh_.colors.empty()) fill_up(mesh_.colors, vertices, 4, 1);
-    if (!mesh_.texcoords.empty()) fill_up(mesh_.texcoords, vertices, 2, 0);
-    if (!mesh_.normals.empty()) fill_up(mesh_.normals, vertices, 3, 0);
-    for (const std::uint32_t index : part.indices) triangles_.indices.push_back(first + index);
-    triangles_.state_of.insert(triangles_.state_of.end(), part.indices.size() / 3,
-                               static_cast<std::uint32_t>(triangles_.states.size()));
-    triangles_.states.push_back(state);
+  void add(MeshData&& part, DrawCommand draw) {
+    has_colors_ = has_colors_ || !part.colors.empty();
+    has_texcoords_ = has_texcoords_ || !part.texcoords.empty();
+    has_normals_ = has_normals_ || !part.normals.empty();
+    parts_.push_back(std::move(part));
+    draws_.push_back(std::move(draw));
   }
 
   void move_to(Scene& scene) {
-    if (triangles_.states.empty()) return;
-    triangles_.mesh = scene.meshes.size();
-    mesh_.name = "blended triangles";
-    scene.meshes.push_back(std::move(mesh_));
-    scene.blended = std::move(triangles_);
+    if (draws_.empty()) return;
+    BlendedTriangles triangles{.mesh = scene.meshes.size()};
+    MeshData mesh{.name = "blended triangles"};
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+      const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
+      append_vertices(parts_[i], draws_[i].state.material.diffuse, mesh);
+      for (const std::uint32_t index : parts_[i].indices) triangles.indices.push_back(first + index);
+      triangles.draw_of.insert(triangles.draw_of.end(), parts_[i].indices.size() / 3,
+                               static_cast<std::uint32_t>(i));
+      draws_[i].mesh = triangles.mesh;
+    }
+    triangles.draws = std::move(draws_);
+    scene.meshes.push_back(std::move(mesh));
+    scene.blended = std::move(triangles);
   }
 
  private:
-  MeshData mesh_;
-  BlendedTriangles triangles_;
+  /// @param unlit  colour of the part's unlit draw without vertex colours
+  void append_vertices(const MeshData& part, const Color& unlit, MeshData& mesh) const {
+    const std::size_t vertices = part.vertex_count();
+    append(part.positions, vertices, {}, mesh.positions);
+    if (has_colors_) append(part.colors, vertices, {unlit.r, unlit.g, unlit.b, unlit.a}, mesh.colors);
+    if (has_texcoords_) append(part.texcoords, vertices, {0, 0}, mesh.texcoords);
+    if (has_normals_) append(part.normals, vertices, {0, 0, 0}, mesh.normals);
+  }
+
+  std::vector<MeshData> parts_;
+  std::vector<DrawCommand> draws_;
+  bool has_colors_ = false, has_texcoords_ = false, has_normals_ = false;
 };
 
 }  // namespace
 
 void add_model_draws(Model model, Scene& scene) {
-  for (const ModelTexture& texture : model.textures)
-    scene.textures.push_back(texture_of(model.images[texture.image], texture.sampler));
+  add_textures(model, scene);
   std::vector<ModelPart> parts = model.parts;
   std::vector<MeshData> meshes = split_into_parts(model);
   BlendedParts blended;
@@ -100,12 +125,13 @@ void add_model_draws(Model model, Scene& scene) {
     mesh.primitive = part.primitive;
     if (part.alpha == ModelAlpha::blend && !has_alpha(part, mesh, model)) part.alpha = ModelAlpha::opaque;
     if (!part.uses_colors) mesh.colors.clear();
-    const DrawState state = state_of(part, scene);
+    DrawCommand draw{
+        .mesh = scene.meshes.size(), .state = state_of(part, scene), .material_name = part.material_name};
     if (part.alpha == ModelAlpha::blend && part.primitive == Primitive::triangles) {
-      blended.add(std::move(mesh), state);
+      blended.add(std::move(mesh), std::move(draw));
       continue;
     }
-    scene.frame.push_back({DrawCommand{.mesh = scene.meshes.size(), .state = state}, ""});
+    scene.frame.push_back({std::move(draw), ""});
     scene.meshes.push_back(std::move(mesh));
   }
   blended.move_to(scene);

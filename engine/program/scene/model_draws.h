@@ -6,7 +6,7 @@
 
 namespace tessera::program {
 
-/// Adds the meshes, textures and draws of all parts to the scene. The camera must have been set.
+/// Adds the meshes, textures and draws of all parts to the scene.
 /// - Parts whose alpha is ModelAlpha::mask discard fragments below the cutoff.
 /// - Parts that blend are drawn last, without writing depth; their triangles become Scene::blended. A part
 ///   whose alpha is 1 throughout is opaque.

@@ -88,20 +88,15 @@ SceneCamera read_camera(const Value& value) {
     reversed->refuse("\"reversed\" belongs in \"projection\", or next to view and projection matrices");
   if (projection && projection->json().is_array())
     value.refuse("a projection matrix needs a \"view\" matrix");
-  const auto vector = [&](const char* key, Vec3 default_value) {
-    const auto found = object.find(key);
-    return found ? found->vec3() : default_value;
-  };
-  const Vec3 eye = vector("eye", {0, 0, 4});
-  const Vec3 target = vector("target", {0, 0, 0});
-  const Vec3 up = vector("up", {0, 1, 0});
-  camera.view = value.checked([&] { return look_at(eye, target, up); });
+  Viewpoint viewpoint;
+  if (const auto eye = object.find("eye")) viewpoint.eye = eye->vec3();
+  if (const auto target = object.find("target")) viewpoint.target = target->vec3();
+  if (const auto up = object.find("up")) viewpoint.up = up->vec3();
+  camera = value.checked([&] { return camera_at(viewpoint, Lens{}); });
   if (projection) read_projection(*projection, camera);
   return camera;
 }
 
-SceneCamera default_camera() {
-  return {.view = look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0}), .projection = Lens{}};
-}
+SceneCamera default_camera() { return camera_at({}, {}); }
 
 }  // namespace tessera::program

@@ -49,6 +49,12 @@ Camera SceneCamera::at_aspect(double aspect) const {
   return {.view = view, .projection = matrix, .reversed = reversed};
 }
 
+SceneCamera camera_at(const Viewpoint& viewpoint, const Lens& lens) {
+  return {.view = look_at(viewpoint.eye, viewpoint.target, viewpoint.up),
+          .projection = lens,
+          .viewpoint = viewpoint};
+}
+
 int palette_bits(std::string_view name) {
   if (name == "bw") return 1;
   if (name == "ega16") return 4;
@@ -162,11 +168,11 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
     std::erase_if(scene.frame,
                   [](const SceneCommand& command) { return std::holds_alternative<Quality>(command.value); });
   }
+  if (overrides.camera) follow_camera(scene);  // replaces draws
   if (overrides.shading) set_shading(*overrides.shading, scene);
   if (overrides.samples) scene.framebuffer.samples = *overrides.samples;
   if (overrides.background) set_background(*overrides.background, scene);
   if (overrides.wireframe) draw_edges(scene);
-  if (overrides.camera) follow_camera(scene);
   reduce_transparent_model(scene);
 }
 

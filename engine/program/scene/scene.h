@@ -31,20 +31,29 @@ struct Lens {
   double near = 0.1, far = 100;  ///< far may be infinite
 };
 
+/// Arguments of look_at().
+struct Viewpoint {
+  Vec3 eye{0, 0, 4}, target{0, 0, 0}, up{0, 1, 0};
+};
+
 /// A camera whose aspect follows the size of the picture.
 struct SceneCamera {
   Matrix view;
   std::variant<Lens, Matrix> projection;
   bool reversed = false;
+  std::optional<Viewpoint> viewpoint{};  ///< that of `view`, unless it was given as a matrix
 
   Camera at_aspect(double aspect) const;
 };
+/// @throws Error as look_at()
+SceneCamera camera_at(const Viewpoint& viewpoint, const Lens& lens);
 
 struct DrawCommand {
   std::size_t mesh = 0;  ///< index into Scene::meshes
   DrawState state;
   /// Range of the mesh's indices; index_count 0: the whole mesh.
   std::size_t first_index = 0, index_count = 0;
+  std::string material_name{};  ///< models only
 
   Mesh view(const std::vector<MeshData>& meshes) const;
 };
@@ -71,10 +80,10 @@ struct SceneCommand {
 
 /// Triangles that blend. They are drawn last, from back to front.
 struct BlendedTriangles {
-  std::size_t mesh = 0;                 ///< index into Scene::meshes; its indices are sorted
-  std::vector<std::uint32_t> indices;   ///< in the order of the model, three per triangle
-  std::vector<std::uint32_t> state_of;  ///< per triangle: index into `states`
-  std::vector<DrawState> states;
+  std::size_t mesh = 0;                ///< index into Scene::meshes; its indices are sorted
+  std::vector<std::uint32_t> indices;  ///< in the order of the model, three per triangle
+  std::vector<std::uint32_t> draw_of;  ///< per triangle: index into `draws`
+  std::vector<DrawCommand> draws;      ///< without ranges
 };
 
 /// Origin of the palette. given: named or listed in the scene, or the default. adaptive: chosen for the
@@ -107,6 +116,7 @@ struct Scene {
   bool is_model = false;
   bool has_shoulder_light = false;  ///< the only light lies over the left shoulder of the camera
   std::optional<BlendedTriangles> blended{};
+  std::vector<std::shared_ptr<const Picture>> texture_pictures{};  ///< of each texture; for write_scene()
   std::vector<std::string> warnings;
 };
 

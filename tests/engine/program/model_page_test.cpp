@@ -40,7 +40,7 @@ Picture draw_page() {
 TEST(ModelPage, MatchesCommittedPicture) {
   for (const std::string& model : test::page_models())
     ASSERT_TRUE(std::filesystem::exists(model)) << model << ": bash .ci/packages installs it";
-  ASSERT_GE(test::page_models().size(), 15u);
+  ASSERT_EQ(test::page_models().size(), 30u);
   const Picture page = draw_page();
   if (std::getenv("TESSERA_WRITE_PAGE") != nullptr) write_picture(page, kPage, 9);
   const Picture shown = read_picture(kPage);

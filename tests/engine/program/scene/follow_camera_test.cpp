@@ -148,5 +148,25 @@ TEST(FollowCamera, GivenLightsReplaceTheOneOverTheShoulder) {
   EXPECT_EQ(scene.lights[0].position, (std::array<float, 4>{0, 1, 0, 0}));
 }
 
+TEST(FollowCamera, UnlitPartsKeepTheirColorBesideVertexColors) {
+  const Color red{1, 0, 0, kAlpha}, green{0, 1, 0, kAlpha};
+  Model model = panes({0, 1}, {red, green});
+  const model_picture::Pixel plain = center_from(20, model_scene(model, "panes", 64, 48));
+  // The same green as vertex colours.
+  model.mesh.colors.assign(16, 0);
+  for (int i = 0; i < 4; ++i) model.mesh.colors.insert(model.mesh.colors.end(), {0, 1, 0, kAlpha});
+  model.parts[1].uses_colors = true;
+  EXPECT_EQ(center_from(20, model_scene(model, "panes", 64, 48)), plain);
+}
+
+TEST(FollowCamera, KeepsTheShadingThatIsSetWithACamera) {
+  Scene scene = model_scene(panes({0, 1}, {{1, 0, 0, kAlpha}, {0, 1, 0, kAlpha}}), "panes");
+  apply({.shading = Shading::flat, .camera = camera_at(20)}, scene);
+  for (const SceneCommand& command : scene.frame) {
+    const auto* draw = std::get_if<DrawCommand>(&command.value);
+    EXPECT_TRUE(draw == nullptr || draw->state.shading == Shading::flat);
+  }
+}
+
 }  // namespace
 }  // namespace tessera::follow_camera_test
