@@ -41,7 +41,7 @@ struct SceneCamera {
   Matrix view;
   std::variant<Lens, Matrix> projection;
   bool reversed = false;
-  std::optional<Viewpoint> viewpoint{};  ///< that of `view`, unless it was given as a matrix
+  std::optional<Viewpoint> viewpoint{};  ///< absent: `view` was given as a matrix
 
   Camera at_aspect(double aspect) const;
 };
@@ -116,7 +116,7 @@ struct Scene {
   bool is_model = false;
   bool has_shoulder_light = false;  ///< the only light lies over the left shoulder of the camera
   std::optional<BlendedTriangles> blended{};
-  std::vector<std::shared_ptr<const Picture>> texture_pictures{};  ///< of each texture; for write_scene()
+  std::vector<std::shared_ptr<const Picture>> texture_pictures{};  ///< pixels of `textures`; for write_scene()
   std::vector<std::string> warnings;
 };
 

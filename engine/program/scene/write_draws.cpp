@@ -11,7 +11,7 @@ namespace {
 
 using json::Json;
 
-/// Replaces what is not UTF-8, so that names that differ stay different in the file.
+/// Replaces invalid UTF-8, so that names that differ stay different in the file.
 std::string valid_text(const std::string& text) {
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }

@@ -45,7 +45,7 @@ std::vector<std::uint32_t> drawn_indices(const DrawCommand& draw, const MeshData
 /// Vertices in the order of their first use.
 struct UsedVertices {
   std::vector<std::uint32_t> vertices;  ///< numbers in the mesh
-  Json indices = Json::array();         ///< of `vertices`
+  Json indices = Json::array();         ///< indices into `vertices`
 };
 
 UsedVertices used_vertices(const std::vector<std::uint32_t>& indices) {

@@ -40,7 +40,7 @@ class NamedList {
  private:
   std::vector<std::pair<std::string, json::Json>> members_;
   std::set<std::string> names_;
-  std::map<std::string, int> last_number_;  // of the names that were given
+  std::map<std::string, int> last_number_;  // numbers appended to the given names
 };
 
 /// Meshes, materials and frame of a scene file.

@@ -48,7 +48,7 @@ Scene scene_of(const std::string& model) {
   return model_scene(import_model(model, ModelUse::display), model, 96, 72);
 }
 
-/// A triangle for each colour, at z 0, 1, ..., each a part of its own.
+/// A triangle for each colour, at z 0, 1, ..., each a separate part.
 Model triangles(const std::vector<Color>& colors) {
   Model model;
   for (const Color& color : colors) {
