@@ -47,17 +47,29 @@ Double3 unit(const Double3& n) {
                                              : Double3{};
 }
 
+/// Calls act() with 0 to count - 1, and reports progress.
+template <class Act>
+void for_each(std::size_t count, const ReportProgress& progress, const Act& act) {
+  constexpr std::size_t kReportInterval = 1 << 16;
+  for (std::size_t i = 0; i < count; ++i) {
+    act(i);
+    if (progress && i % kReportInterval == 0) progress(static_cast<double>(i) / static_cast<double>(count));
+  }
+}
+
 /// The corners at each position, in ascending order.
 class CornersByPosition {
  public:
-  explicit CornersByPosition(const MeshData& mesh) : ends_(mesh.vertex_count() + 1) {
-    const std::vector<std::uint32_t> first = first_vertices(mesh);
+  CornersByPosition(const MeshData& mesh, const ReportProgress& progress) : ends_(mesh.vertex_count() + 1) {
+    const std::vector<std::uint32_t> first = first_vertices(mesh, part_of(progress, 0, 0.5));
     const std::size_t corners = mesh.indices.size() / 3 * 3;
-    for (std::size_t corner = 0; corner < corners; ++corner) ++ends_[first[mesh.indices[corner]] + 1];
+    for_each(corners, part_of(progress, 0.5, 0.7),
+             [&](std::size_t corner) { ++ends_[first[mesh.indices[corner]] + 1]; });
     std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
     corners_.resize(corners);
-    for (std::size_t corner = 0; corner < corners; ++corner)
+    for_each(corners, part_of(progress, 0.7, 1), [&](std::size_t corner) {
       corners_[ends_[first[mesh.indices[corner]]]++] = static_cast<std::uint32_t>(corner);
+    });
   }
   /// The corners at the position of a vertex, if it is the first one there; else none.
   std::span<const std::uint32_t> at(std::uint32_t vertex) const {
@@ -67,15 +79,16 @@ class CornersByPosition {
 
  private:
   /// The first vertex at the position of each vertex.
-  static std::vector<std::uint32_t> first_vertices(const MeshData& mesh) {
+  static std::vector<std::uint32_t> first_vertices(const MeshData& mesh, const ReportProgress& progress) {
     std::vector<std::uint32_t> first(mesh.vertex_count());
     IndexTable table;
-    for (std::uint32_t vertex = 0; vertex < first.size(); ++vertex) {
+    for_each(first.size(), progress, [&](std::size_t i) {
+      const auto vertex = static_cast<std::uint32_t>(i);
       const std::array<std::uint32_t, 3> here = position_bits(mesh, vertex);
       const auto is_here = [&](std::uint32_t other) { return position_bits(mesh, other) == here; };
       const std::uint64_t hash = mixed(mixed(here[0], here[1]), here[2]);
       first[vertex] = table.find_or_add(static_cast<std::uint32_t>(hash), vertex, is_here);
-    }
+    });
     return first;
   }
   static std::array<std::uint32_t, 3> position_bits(const MeshData& mesh, std::uint32_t vertex) {
@@ -216,7 +229,6 @@ bool is_missing_normal(const float* normal) {
 
 void add_creased_normals(MeshData& mesh, double crease_degrees, std::span<const std::uint32_t> groups,
                          const ReportProgress& progress) {
-  constexpr std::uint32_t kReportInterval = 1 << 16;
   mesh.normals.resize(mesh.positions.size());
   const auto vertices = static_cast<std::uint32_t>(mesh.vertex_count());
   std::vector<bool> missing(vertices);
@@ -225,12 +237,10 @@ void add_creased_normals(MeshData& mesh, double crease_degrees, std::span<const 
   if (std::ranges::find(missing, true) == missing.end()) return;
   // The tolerance keeps triangles of a plane together although their positions are rounded.
   const double min_cosine = sin_cos_degrees(crease_degrees).cosine - 1e-9;
-  const CornersByPosition corners(mesh);
+  const CornersByPosition corners(mesh, part_of(progress, 0, 0.5));
   PositionNormals normals(mesh, missing, min_cosine);
-  for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
-    normals.add(corners.at(vertex), groups);
-    if (progress && vertex % kReportInterval == 0) progress(static_cast<double>(vertex) / vertices);
-  }
+  for_each(vertices, part_of(progress, 0.5, 1),
+           [&](std::size_t vertex) { normals.add(corners.at(static_cast<std::uint32_t>(vertex)), groups); });
 }
 
 void add_creased_normals(Model& model, double crease_degrees, const ReportProgress& progress) {

@@ -264,17 +264,17 @@ TEST(PlyImport, SkipsWhatItDoesNotKnow) {
     std::string bytes =
         header(format,
                "comment made by hand\nobj_info any\nelement camera 2\nproperty float f\nproperty list "
-               "ushort double k\nelement nothing 5000000000\nelement vertex 3\nproperty int id\n" +
-                   kXyz + "property list uchar short ring\nelement face 1\nproperty list uint float w\n" +
-                   kFaces + "property double area\nelement material 1\nproperty uchar m\n");
+               "ushort double k\nelement nothing 5000000000\nelement vertex 3\nproperty int id\nproperty "
+               "list uchar short x\n" +
+                   kXyz + "element face 1\nproperty list uint float w\n" + kFaces +
+                   "property double area\nelement material 1\nproperty uchar m\n");
     for (const int length : {0, 2}) {
       bytes += value(1, "float", format) + value(length, "ushort", format);
       for (int i = 0; i < length; ++i) bytes += value(i, "double", format);
     }
     for (const int x : {0, 1, 2}) {
-      bytes += value(7, "int", format);
+      bytes += value(7, "int", format) + value(1, "uchar", format) + value(-3, "short", format);
       for (const int coordinate : {x, x * x, 0}) bytes += value(coordinate, "float", format);
-      bytes += value(1, "uchar", format) + value(-3, "short", format);
     }
     bytes += value(1, "uint", format) + value(0.5, "float", format) + value(3, "uchar", format);
     for (const int i : {0, 1, 2}) bytes += value(i, "int", format);
@@ -333,6 +333,9 @@ TEST(PlyImport, KeepsPrecisionFarFromOrigin) {
   const Model points = read(binary);
   EXPECT_EQ(points.mesh.positions[3] - points.mesh.positions[0], 2.125f);
   EXPECT_EQ(read(binary, ModelUse::mesh).mesh.positions[0], 1e7f);
+  const Model text =
+      read(header(Format::ascii, "element vertex 2\n" + kXyz) + "5000000.25 0 0\n5000001.5 1 0\n");
+  EXPECT_EQ(text.mesh.positions[3] - text.mesh.positions[0], 1.25f) << "text has more digits than its type";
 }
 
 TEST(PlyImport, GivesMeshesNormals) {
@@ -365,6 +368,9 @@ TEST(PlyImport, NamesWhatIsWrong) {
   EXPECT_EQ(message_of(square("", {""}, "element face 1\nproperty int a\n", "1\n")),
             "m.ply:13: the element \"face\" has no list vertex_indices");
   EXPECT_EQ(message_of(header(Format::ascii, "element vertex 0\n" + kXyz)), "m.ply: holds no vertex");
+  EXPECT_EQ(message_of("ply\r\nformat ascii 1.0\r\nelement vertex 2\r\nproperty float x\r\nproperty float "
+                       "y\r\nproperty float z\r\nend_header\r\n0 0 0\r\n0 0 x\r\n"),
+            "m.ply:9: found \"x\", expected a number");
 }
 
 // Counts that the file cannot hold take no memory.
