@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/program/cli/choice_option.h"
+#include "engine/program/cli/parse_overrides.h"
 #include "engine/program/cli/validators.h"
 #include "engine/program/scene/dither_names.h"
 #include "engine/program/scene/quality_names.h"

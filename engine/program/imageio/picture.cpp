@@ -95,7 +95,7 @@ std::string encode_picture(const Picture& picture, const std::string& path, int 
     if (extension == ".pgm") return pgm(picture);
     if (extension == ".pfm") return pfm(picture);
     if (extension == ".raw") return raw(picture);
-    return encode_by_module(picture, extension, 3, compression);
+    return encode_by_module(picture, extension, picture.keeps_alpha ? 4 : 3, compression);
   });
 }
 

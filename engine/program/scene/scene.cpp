@@ -104,7 +104,7 @@ void set_shading(Shading shading, Scene& scene) {
   for (SceneCommand& command : scene.frame)
     if (auto* draw = std::get_if<DrawCommand>(&command.value)) draw->state.shading = shading;
   if (!scene.blended) return;
-  for (DrawState& state : scene.blended->states) state.shading = shading;
+  for (DrawCommand& draw : scene.blended->draws) draw.state.shading = shading;
 }
 
 /// Replaces the colour of all clears; without any, clears first.
@@ -125,7 +125,8 @@ void draw_edges(Scene& scene) {
     if (auto* draw = std::get_if<DrawCommand>(&command.value))
       draw->state.front_mode = draw->state.back_mode = PolygonMode::line;
   if (!scene.blended) return;
-  for (DrawState& state : scene.blended->states) state.front_mode = state.back_mode = PolygonMode::line;
+  for (DrawCommand& draw : scene.blended->draws)
+    draw.state.front_mode = draw.state.back_mode = PolygonMode::line;
 }
 
 }  // namespace

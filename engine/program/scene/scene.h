@@ -116,7 +116,8 @@ struct Scene {
   bool is_model = false;
   bool has_shoulder_light = false;  ///< the only light lies over the left shoulder of the camera
   std::optional<BlendedTriangles> blended{};
-  std::vector<std::shared_ptr<const Picture>> texture_pictures{};  ///< pixels of `textures`; for write_scene()
+  std::vector<std::shared_ptr<const Picture>>
+      texture_pictures{};  ///< pixels of `textures`; for write_scene()
   std::vector<std::string> warnings;
 };
 

@@ -56,6 +56,11 @@ void transform(const Matrix& m, double w, std::array<float, N>& v) {
                                 m.m[4 * row + 2] * old[2] + m.m[4 * row + 3] * w);
 }
 
+void turn_camera(const Matrix& by, SceneCamera& camera) {
+  camera.view = camera.view * by;
+  camera.viewpoint.reset();
+}
+
 void turn_lights(const Matrix& by, LightList& lights) {
   for (Light& light : lights) {
     transform(by, static_cast<double>(light.position[3]), light.position);
@@ -68,10 +73,10 @@ void turn_lights(const Matrix& by, LightList& lights) {
 void turn_viewer(double degrees, Scene& scene) {
   const Vec3 center = center_of(scene);
   const Matrix turn = turn_around(center, degrees), back = turn_around(center, -degrees);
-  scene.camera.view = scene.camera.view * turn;
+  turn_camera(turn, scene.camera);
   turn_lights(back, scene.lights);
   for (SceneCommand& command : scene.frame) {
-    if (auto* camera = std::get_if<SceneCamera>(&command.value)) camera->view = camera->view * turn;
+    if (auto* camera = std::get_if<SceneCamera>(&command.value)) turn_camera(turn, *camera);
     if (auto* lights = std::get_if<LightList>(&command.value)) turn_lights(back, *lights);
   }
   follow_camera(scene);
