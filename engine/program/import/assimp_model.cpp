@@ -212,7 +212,7 @@ class Converter {
   std::vector<bool> camera_used_;
   std::vector<bool> light_used_;
   std::vector<Material> materials_;
-  std::vector<std::optional<ColorTexture>> textures_;  // one per material
+  std::vector<std::optional<ColorTexture>> textures_;  // by material
   std::vector<bool> has_mapped_mesh_;                  // materials used with texture coordinates
   std::map<std::string, std::size_t> image_numbers_;
   // Vertex indices by kind of primitive (0: triangles, 1: lines, 2: points) and material.

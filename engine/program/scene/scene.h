@@ -116,8 +116,7 @@ struct Scene {
   bool is_model = false;
   bool has_shoulder_light = false;  ///< the only light lies over the left shoulder of the camera
   std::optional<BlendedTriangles> blended{};
-  std::vector<std::shared_ptr<const Picture>>
-      texture_pictures{};  ///< pixels of `textures`; for write_scene()
+  std::vector<std::shared_ptr<const Picture>> texture_pictures{};  ///< those of `textures`, to write them
   std::vector<std::string> warnings;
 };
 

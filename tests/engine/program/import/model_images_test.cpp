@@ -37,7 +37,8 @@ class ModelImages : public testing::Test {
     model.textures = {{}};
     model.parts = {ModelPart{.texture = 0}};
     decode_images((folder_ / "models" / "ship.md2").string(), model);
-    if (model.warnings.empty()) EXPECT_EQ(model.images[0].pixels, (std::vector<std::uint8_t>{7, 8, 9, 255}));
+    const std::vector<std::uint8_t> pixel{7, 8, 9, 255};
+    EXPECT_TRUE(!model.warnings.empty() || model.images[0].pixels == pixel);
     return model.warnings.empty() ? "" : model.warnings[0];
   }
 
