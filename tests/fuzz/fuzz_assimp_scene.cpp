@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const int kind = bytes.byte();
   const AssimpSceneCase from(bytes);
   std::optional<Model> model;
-  if (error_of([&] { model = model_of(from.scene(), (kind & 1) == 0, (kind & 2) != 0); })) return 0;
+  if (error_of([&] { model = model_of(from.scene(), (kind & 2) != 0); })) return 0;
   add_creased_normals(*model, (kind & 4) != 0 ? 0 : kCreaseDegrees);
   orient_by_normals(*model);
   if (const auto error = error_of([&] { model_from_bytes(to_bytes(*model), "model"); }))

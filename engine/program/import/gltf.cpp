@@ -11,6 +11,7 @@
 #include "engine/program/import/gltf_view.h"
 #include "engine/program/import/model_normals.h"
 #include "engine/program/import/model_origin.h"
+#include "engine/program/scene/text_file.h"
 
 namespace tessera::program {
 namespace {
@@ -203,7 +204,7 @@ Model import_gltf(const std::string& path) {
     constexpr double kFlat = 0;
     add_creased_normals(model, kFlat);
     Model view;
-    add_gltf_view(path, view);
+    add_gltf_view_of_bytes(read_text_file(path), view);
     model.cameras = std::move(view.cameras);
     model.lights = std::move(view.lights);
     move_view_to_origin(model);

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -173,11 +171,6 @@ class ViewReader {
 };
 
 }  // namespace
-
-bool add_gltf_view(const std::string& path, Model& model) {
-  std::ifstream file(path, std::ios::binary);
-  return add_gltf_view_of_bytes(std::string(std::istreambuf_iterator<char>(file), {}), model);
-}
 
 bool add_gltf_view_of_bytes(const std::string& bytes, Model& model) {
   const Json file = Json::parse(json_text(bytes), nullptr, false);

@@ -17,8 +17,6 @@ namespace tessera::program {
 ///   spot cutoff = outer cone angle
 ///   spot exponent: both falloffs are 1/2 at the same angle (spot_exponent.h)
 /// @return false, with nothing added, if the file is not glTF 2
-bool add_gltf_view(const std::string& path, Model& model);
-/// Reads the file's bytes instead of the file.
 bool add_gltf_view_of_bytes(const std::string& bytes, Model& model);
 
 }  // namespace tessera::program
