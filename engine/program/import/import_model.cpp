@@ -46,7 +46,7 @@ std::string import_by_module(const std::string& path) {
 
 Model read_by_extension(const std::string& path, ModelUse use, const ReportProgress& progress) {
   const std::string extension = lower_case_extension(path);
-  if (extension == ".obj") return import_obj(path, use);
+  if (extension == ".obj") return import_obj(path, use, part_of(progress, 0, 0.9));
   if (extension == ".ply") return import_ply(path, use, part_of(progress, 0, 0.7));
   if (extension == ".gltf" || extension == ".glb") return import_gltf(path);
   return model_from_bytes(import_by_module(path), path);
@@ -57,17 +57,24 @@ void drop_image_bytes(Model& model) {
   for (ModelImage& image : model.images) image.encoded.clear();
 }
 
+bool is_visible(const ModelPart& part, const Model& model) {
+  if (part.alpha != ModelAlpha::blend) return true;
+  if (!part.uses_colors) return part.material.diffuse.a > 0;
+  for (std::size_t i = part.first_index; i < part.first_index + part.index_count; ++i)
+    if (model.mesh.colors[4 * std::size_t{model.mesh.indices[i]} + 3] > 0) return true;
+  return false;
+}
+
 /// Some exporters write the opacity of opaque materials as 0. A model of which nothing would be seen is
 /// opaque.
 void keep_visible(const std::string& path, Model& model) {
-  const bool is_invisible = std::ranges::all_of(model.parts, [](const ModelPart& part) {
-    return part.alpha == ModelAlpha::blend && part.material.diffuse.a == 0 && !part.uses_colors;
-  });
-  if (!is_invisible) return;
+  if (std::ranges::any_of(model.parts, [&](const ModelPart& part) { return is_visible(part, model); }))
+    return;
   for (ModelPart& part : model.parts) {
     part.alpha = ModelAlpha::opaque;
     part.material.diffuse.a = 1;
   }
+  for (std::size_t i = 3; i < model.mesh.colors.size(); i += 4) model.mesh.colors[i] = 1;
   model.warnings.push_back(path + ": the opacity of all materials is 0; they are drawn opaque");
 }
 

@@ -137,7 +137,7 @@ class MtlParser {
 std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& file,
                                    std::vector<std::string>& warnings) {
   MtlParser parser(file, warnings);
-  for_each_obj_line(text, file, [&](ObjLine& line) { parser.read(line); });
+  for_each_obj_line(text, file, [&](ObjLine& line, std::size_t) { parser.read(line); });
   return std::move(parser.materials);
 }
 

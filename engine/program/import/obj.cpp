@@ -58,23 +58,6 @@ std::vector<float> floats(const std::vector<std::array<double, 3>>& positions, c
   return numbers;
 }
 
-/// Makes all materials opaque if no element would be visible: some programs write d 0 for opaque ones.
-void show_invisible(const ObjFile& file, const std::string& path, Materials& materials,
-                    std::vector<std::string>& warnings) {
-  const auto is_invisible = [&](const ObjElement& element) {
-    if (element.material < 0) return false;
-    const auto& material = materials[static_cast<std::size_t>(element.material)];
-    return material && material->material.diffuse.a == 0;
-  };
-  if (file.elements.empty() || !std::ranges::all_of(file.elements, is_invisible)) return;
-  for (auto& material : materials) {
-    if (!material) continue;
-    material->material.diffuse.a = 1;
-    material->alpha = ModelAlpha::opaque;
-  }
-  warnings.push_back(path + ": every material is invisible (d 0); all are drawn opaque");
-}
-
 /// Elements of one material and primitive.
 struct Group {
   int material = -1;  ///< index into Materials; -1: none
@@ -86,17 +69,19 @@ struct Group {
 
 class Builder {
  public:
-  Builder(ObjFile& file, const Materials& materials, ModelUse use, Model& model)
+  Builder(ObjFile& file, const Materials& materials, ModelUse use, const ReportProgress& progress,
+          Model& model)
       : file_(file),
         materials_(materials),
         use_(use),
+        progress_(progress),
         model_(model),
         positions_(floats(file.positions, model.origin)),
         attributes_(attributes()),
         vertices_(file, positions_, attributes_, model.mesh) {}
 
   void add_triangles() {
-    std::vector<Group> groups = grouped(Primitive::polygon);
+    std::vector<Group> groups = grouped(Primitive::polygon, part_of(progress_, 0, 0.6));
     std::vector<std::uint32_t> smoothing_groups;
     for (Group& group : groups)
       smoothing_groups.insert(smoothing_groups.end(), group.smoothing_groups.begin(),
@@ -104,14 +89,15 @@ class Builder {
     for (Group& group : groups) add_part(std::move(group), Primitive::triangles);
     if (attributes_.normals && lacks_normals())
       add_creased_normals(model_.mesh, kCreaseDegrees,
-                          file_.has_smoothing_groups ? smoothing_groups : std::span<const std::uint32_t>());
+                          file_.has_smoothing_groups ? smoothing_groups : std::span<const std::uint32_t>(),
+                          part_of(progress_, 0.6, 1));
   }
 
   void add_lines() {
-    for (Group& group : grouped(Primitive::line_strip)) add_part(std::move(group), Primitive::lines);
+    for (Group& group : grouped(Primitive::line_strip, {})) add_part(std::move(group), Primitive::lines);
   }
   void add_points() {
-    for (Group& group : grouped(Primitive::points)) add_part(std::move(group), Primitive::points);
+    for (Group& group : grouped(Primitive::points, {})) add_part(std::move(group), Primitive::points);
   }
 
   /// Warns of corners without texture coordinates that may need some.
@@ -147,11 +133,14 @@ class Builder {
   }
 
   /// Groups elements by material, in the order of first use. Undefined materials count as none.
-  std::vector<Group> grouped(Primitive primitive) {
+  std::vector<Group> grouped(Primitive primitive, const ReportProgress& progress) {
+    constexpr std::size_t kReportInterval = 1 << 16;
     std::vector<Group> groups;
     std::map<int, std::size_t> group_of;
-    std::size_t first = 0;
+    std::size_t first = 0, elements = 0;
     for (const ObjElement& element : file_.elements) {
+      if (progress && ++elements % kReportInterval == 0)
+        progress(static_cast<double>(elements) / static_cast<double>(file_.elements.size()));
       const std::span<ObjCorner> corners = std::span(file_.corners).subspan(first, element.corner_count);
       first += element.corner_count;
       if (element.primitive != primitive) continue;
@@ -248,6 +237,7 @@ class Builder {
   ObjFile& file_;
   const Materials& materials_;
   ModelUse use_;
+  ReportProgress progress_;
   Model& model_;
   std::vector<float> positions_;
   ObjAttributes attributes_;
@@ -258,17 +248,16 @@ class Builder {
 
 }  // namespace
 
-Model import_obj(const std::string& path, ModelUse use) {
+Model import_obj(const std::string& path, ModelUse use, const ReportProgress& progress) {
   const bool is_displayed = use == ModelUse::display;
-  ObjFile file = parse_obj(read_text_file(path), path);
+  ObjFile file = parse_obj(read_text_file(path), path, part_of(progress, 0, 0.5));
   Model model;
-  Materials materials = obj_materials(file, path, model);
+  const Materials materials = obj_materials(file, path, model);
   if (is_displayed) {
     add_points_of_lone_vertices(file);
-    show_invisible(file, path, materials, model.warnings);
     model.origin = origin_of(file);
   }
-  Builder builder(file, materials, use, model);
+  Builder builder(file, materials, use, part_of(progress, 0.5, 1), model);
   builder.add_triangles();
   if (is_displayed) {
     builder.add_lines();

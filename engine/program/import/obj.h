@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "engine/program/import/byte_stream.h"
 #include "engine/program/import/model.h"
 
 namespace tessera::program {
@@ -28,10 +29,9 @@ namespace tessera::program {
 /// - Every corner of a triangle has a normal.
 /// - Models that are far from the origin for their size are moved to it (Model::origin).
 /// - A file of vertices alone is a point cloud.
-/// - A model of which every material is invisible is drawn opaque, with a warning.
 ///
 /// @throws Error, naming the file and if possible the line, for a file that is missing, malformed, or without
 ///   anything to draw
-Model import_obj(const std::string& path, ModelUse use);
+Model import_obj(const std::string& path, ModelUse use, const ReportProgress& progress = {});
 
 }  // namespace tessera::program

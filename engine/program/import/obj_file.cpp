@@ -160,9 +160,15 @@ void drop_missing_texcoords(ObjFile& file) {
 
 }  // namespace
 
-ObjFile parse_obj(std::string_view text, const std::string& file) {
+ObjFile parse_obj(std::string_view text, const std::string& file, const ReportProgress& progress) {
+  constexpr std::size_t kReportInterval = 1 << 16;
   ObjParser parser;
-  for_each_obj_line(text, file, [&](ObjLine& line) { parser.read(line); });
+  std::size_t lines = 0;
+  for_each_obj_line(text, file, [&](ObjLine& line, std::size_t offset) {
+    parser.read(line);
+    if (progress && ++lines % kReportInterval == 0)
+      progress(static_cast<double>(offset) / static_cast<double>(text.size()));
+  });
   drop_missing_texcoords(parser.file);
   return std::move(parser.file);
 }

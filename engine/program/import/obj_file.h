@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/program/import/byte_stream.h"
 #include "engine/program/scene/mesh_data.h"
 
 namespace tessera::program {
@@ -48,6 +49,6 @@ struct ObjFile {
 /// @param file  for messages
 /// @throws Error with file and line for a number that is missing, malformed or not finite, an element with
 ///   too few or too many corners, or an index that refers to no vertex or normal of an earlier line
-ObjFile parse_obj(std::string_view text, const std::string& file);
+ObjFile parse_obj(std::string_view text, const std::string& file, const ReportProgress& progress = {});
 
 }  // namespace tessera::program

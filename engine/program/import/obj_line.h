@@ -38,7 +38,7 @@ class ObjLine {
   std::size_t number_;
 };
 
-/// Calls read(ObjLine&) for each line.
+/// Calls read(ObjLine&, offset) for each line; the offset is that of the next line in the text, in bytes.
 /// - Skips a byte order mark. Lines end with LF, CR or both.
 /// - A final backslash continues a line, except in comments. The number of the line is that of its start.
 template <class Read>
@@ -59,6 +59,7 @@ bool is_obj_comment(std::string_view line);
 
 template <class Read>
 void for_each_obj_line(std::string_view text, const std::string& file, const Read& read) {
+  const std::size_t size = text.size();
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   std::string joined;
   for (std::size_t number = 1, lines = 1; !text.empty(); number += lines) {
@@ -75,7 +76,7 @@ void for_each_obj_line(std::string_view text, const std::string& file, const Rea
       whole = joined;
     }
     ObjLine line(whole, file, number);
-    if (!line.keyword().empty()) read(line);
+    if (!line.keyword().empty()) read(line, size - text.size());
   }
 }
 

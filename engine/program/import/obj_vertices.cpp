@@ -11,26 +11,29 @@ std::size_t at(std::uint32_t index, std::size_t components) { return components 
 
 ObjVertices::ObjVertices(const ObjFile& file, const std::vector<float>& positions, ObjAttributes attributes,
                          MeshData& mesh)
-    : file_(file), positions_(positions), attributes_(attributes), mesh_(mesh) {
-  indices_.reserve(positions.size() / 3);
-}
+    : file_(file), positions_(positions), attributes_(attributes), mesh_(mesh) {}
 
 std::uint32_t ObjVertices::index(const ObjCorner& corner, const ObjVertexLook& look) {
-  const auto [entry, is_new] =
-      indices_.try_emplace(key_of(corner, look), static_cast<std::uint32_t>(mesh_.vertex_count()));
-  if (is_new) append(corner, look);
-  return entry->second;
-}
-
-std::size_t ObjVertices::Hash::operator()(const Key& key) const {
-  return static_cast<std::size_t>(
-      (key.position_and_look ^ key.texcoord_and_normal * 0x9e3779b97f4a7c15u) * 0xff51afd7ed558ccdu >> 16);
+  const Key key = key_of(corner, look);
+  const std::uint64_t hash =
+      mixed(std::uint64_t{key.position} << 32 | static_cast<std::uint32_t>(key.texcoord),
+            std::uint64_t{key.look} << 32 | static_cast<std::uint32_t>(key.normal));
+  const auto next = static_cast<std::uint32_t>(keys_.size());
+  const std::uint32_t found = table_.find_or_add(static_cast<std::uint32_t>(hash), next,
+                                                 [&](std::uint32_t other) { return keys_[other] == key; });
+  if (found == next) {
+    keys_.push_back(key);
+    vertices_.push_back(static_cast<std::uint32_t>(mesh_.vertex_count()));
+    append(corner, look);
+  }
+  return vertices_[found];
 }
 
 ObjVertices::Key ObjVertices::key_of(const ObjCorner& corner, const ObjVertexLook& look) const {
-  const std::uint64_t texcoord = attributes_.texcoords ? static_cast<std::uint32_t>(corner.texcoord) : 0;
-  const std::uint64_t normal = attributes_.normals ? static_cast<std::uint32_t>(corner.normal) : 0;
-  return {std::uint64_t{corner.position} << 32 | look.number, texcoord << 32 | normal};
+  return {.position = corner.position,
+          .look = look.number,
+          .texcoord = attributes_.texcoords ? corner.texcoord : kNoObjIndex,
+          .normal = attributes_.normals ? corner.normal : kNoObjIndex};
 }
 
 void ObjVertices::append(const ObjCorner& corner, const ObjVertexLook& look) {

@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
+#include "engine/program/import/index_table.h"
 #include "engine/program/import/obj_file.h"
 
 namespace tessera::program {
@@ -37,12 +37,11 @@ class ObjVertices {
   std::uint32_t index(const ObjCorner& corner, const ObjVertexLook& look);
 
  private:
+  /// Equal keys share a vertex.
   struct Key {
-    std::uint64_t position_and_look, texcoord_and_normal;
+    std::uint32_t position, look;
+    std::int32_t texcoord, normal;
     bool operator==(const Key&) const = default;
-  };
-  struct Hash {
-    std::size_t operator()(const Key& key) const;
   };
 
   Key key_of(const ObjCorner& corner, const ObjVertexLook& look) const;
@@ -52,7 +51,9 @@ class ObjVertices {
   const std::vector<float>& positions_;
   ObjAttributes attributes_;
   MeshData& mesh_;
-  std::unordered_map<Key, std::uint32_t, Hash> indices_;
+  IndexTable table_;                     // of keys_
+  std::vector<Key> keys_;                // in the order of first use
+  std::vector<std::uint32_t> vertices_;  // per key, its vertex
 };
 
 }  // namespace tessera::program

@@ -70,10 +70,16 @@ TEST(ObjCases, TexturesAreRead) {
   EXPECT_THAT(textured.warnings, IsEmpty());
   ASSERT_TRUE(textured.parts.at(0).texture);
   EXPECT_GT(textured.images.at(0).width, 1);
+  const Picture checks = draw_model("obj/textured.obj");
+  EXPECT_GT(count_pixels(checks, [](Pixel p) { return p[0] > 100 && p[1] < 30 && p[2] < 30; }), 2000)
+      << "red";
+  EXPECT_GT(count_pixels(checks, [](Pixel p) { return p[0] > 100 && p[1] > 100 && p[2] < 30; }), 2000)
+      << "yellow";
   const Model black = model_of("black_textured");
   ASSERT_TRUE(black.parts.at(0).texture);
   EXPECT_EQ(black.parts[0].material.diffuse.r, 1);
   EXPECT_THAT(black.warnings, ElementsAre(HasSubstr("have no texture coordinates")));
+  EXPECT_GT(count_pixels(draw_model("obj/black_textured.obj"), [](Pixel p) { return p[0] > 100; }), 2000);
 }
 
 TEST(ObjCases, LinesAreRead) {
@@ -81,6 +87,9 @@ TEST(ObjCases, LinesAreRead) {
   ASSERT_EQ(model.parts.size(), 1u);
   EXPECT_EQ(model.parts[0].primitive, Primitive::lines);
   EXPECT_EQ(model.parts[0].index_count, 10u);
+  const int drawn = count_pixels(draw_model("obj/lines.obj"), [](Pixel p) { return p != kBackground; });
+  EXPECT_GT(drawn, 200);
+  EXPECT_LT(drawn, 1000);
 }
 
 }  // namespace

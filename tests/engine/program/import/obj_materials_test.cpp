@@ -1,8 +1,10 @@
 // Materials of OBJ models: highlights, transparency, and textures with their options.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
+#include "tests/engine/program/import/model_picture.h"
 #include "tests/engine/program/import/obj_folder.h"
 
 namespace tessera::obj_materials_test {
@@ -77,7 +79,10 @@ TEST_F(ObjMaterials, InvisibleModelsAreDrawnOpaque) {
   const Model all = shown_with("newmtl a\nd 0\nnewmtl b\nd 0\nnewmtl unused\nd 1\n", {"a", "b"});
   EXPECT_EQ(alphas(all), (std::vector<float>{1, 1}));
   ASSERT_EQ(all.warnings.size(), 1u);
-  EXPECT_NE(all.warnings[0].find("every material is invisible"), std::string::npos);
+  EXPECT_NE(all.warnings[0].find("opacity of all materials is 0"), std::string::npos);
+  const Model colored = shown("mtllib m.mtl\nv 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+  EXPECT_EQ(alphas(colored), (std::vector<float>{1}));
+  EXPECT_EQ(colored.mesh.colors.at(3), 1);
   EXPECT_EQ(alphas(shown_with("newmtl a\nd 0\nnewmtl b\nd 0.5\n", {"a", "b"})),
             (std::vector<float>{0, 0.5f}));
 }
@@ -152,6 +157,23 @@ TEST_F(ObjMaterials, OneFileMayBeColorAndOpacity) {
   const Model model = shown_with("newmtl a\nmap_Kd leaf.tga\nmap_d leaf.tga\n");
   EXPECT_EQ(model.images.at(0).pixels.at(3), 0x80);
   EXPECT_EQ(model.parts.at(0).alpha, ModelAlpha::blend);
+}
+
+// 0 0 is the lower left corner of an image.
+TEST_F(ObjMaterials, ImagesStandUpright) {
+  write("t.ppm", std::string("P6\n2 2\n255\n\xff\0\0\0\xff\0\0\0\xff\xff\xff\xff", 23));
+  write("m.mtl", "newmtl a\nmap_Kd t.ppm\n");
+  const Model model = shown(
+      "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+      "vt 0 1\nusemtl a\nf 1/1 2/2 3/3 4/4\n");
+  const Picture picture = model_picture::draw(model_scene(model, "m.obj", 240, 180));
+  const auto main_component = [&](int x, int y) {
+    const model_picture::Pixel p = model_picture::pixel(picture, x, y);
+    return std::ranges::max_element(p) - p.begin();
+  };
+  EXPECT_EQ(main_component(85, 55), 0) << "red, upper left";
+  EXPECT_EQ(main_component(155, 55), 1) << "green, upper right";
+  EXPECT_EQ(main_component(85, 115), 2) << "blue, lower left";
 }
 
 TEST_F(ObjMaterials, MaterialsShareImages) {
