@@ -51,7 +51,7 @@ class ObjVertices {
   const std::vector<float>& positions_;
   ObjAttributes attributes_;
   MeshData& mesh_;
-  IndexTable table_;                     // of keys_
+  IndexTable table_;                     // finds keys_
   std::vector<Key> keys_;                // in the order of first use
   std::vector<std::uint32_t> vertices_;  // per key, its vertex
 };

@@ -106,11 +106,11 @@ TEST_F(ModelOptions, UpAxesTurnTheModel) {
   // A model and the same one with its axes exchanged.
   write("y.obj", "v 0 0 0\nv 2 0 0\nv 0 5 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 4 2\n");
   write("z.obj", "v 0 0 0\nv 2 0 0\nv 0 0 5\nv 0 -1 0\nf 1 2 3\nf 1 3 4\nf 1 4 2\n");
-  write("down.obj", "v 0 0 0\nv 0 -2 0\nv -5 0 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 4 2\n");
+  write("down.obj", "v 0 0 0\nv 0 2 0\nv -5 0 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 4 2\n");
   const Picture expected = render("y.obj");
   EXPECT_EQ(render("z.obj --up z").rgba, expected.rgba);
   EXPECT_NE(render("z.obj").rgba, expected.rgba);
-  // x becomes -y: seen from the other side, (0, -2, 0) lies to the right again.
+  // -x becomes up, and y right.
   EXPECT_EQ(render("down.obj --up -x").rgba, expected.rgba);
   expect_one_error("y.obj --up w", 2, "--up");
 }
