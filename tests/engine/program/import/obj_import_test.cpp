@@ -1,10 +1,13 @@
 // Import of OBJ and MTL files, valid and broken.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <vector>
 
 #include "engine/program/import/model.h"
+#include "engine/program/import/obj.h"
 #include "engine/program/scene/model_scene.h"
 #include "tests/engine/program/import/obj_folder.h"
 
@@ -268,6 +271,19 @@ TEST_F(ObjImport, SkipsUnusedLines) {
     EXPECT_EQ(model.mesh.triangle_count(), 4001u) << line;
     EXPECT_TRUE(model.warnings.empty()) << line;
   }
+}
+
+TEST_F(ObjImport, ReportsProgress) {
+  std::string text = kTriangle;
+  for (int i = 0; i < 300000; ++i) text += "f 1 2 3\n";
+  std::vector<double> reports;
+  import_obj(write("long.obj", text), ModelUse::display, [&](double done) { reports.push_back(done); });
+  ASSERT_GE(reports.size(), 8u);
+  EXPECT_TRUE(std::ranges::is_sorted(reports));
+  EXPECT_GT(reports.front(), 0);
+  EXPECT_LT(reports.front(), 0.2);
+  EXPECT_GT(reports.back(), 0.7);
+  EXPECT_LE(reports.back(), 1);
 }
 
 TEST_F(ObjImport, RejectsMissingFilesFoldersAndUnknownFormats) {
