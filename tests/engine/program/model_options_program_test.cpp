@@ -51,13 +51,13 @@ TEST_F(ModelOptions, PicturesWithoutBackgroundHaveAlpha) {
   EXPECT_EQ(alpha_at(clear, 60, 50), 255);
   // Where the model is, both show the same.
   for (std::size_t i = 0; i < plain.rgba.size(); i += 4)
-    if (clear.rgba[i + 3] == 255)
-      for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(clear.rgba[i + c], plain.rgba[i + c]);
+    for (std::size_t c = 0; c < 3 && clear.rgba[i + 3] == 255; ++c)
+      ASSERT_EQ(clear.rgba[i + c], plain.rgba[i + c]);
 }
 
 TEST_F(ModelOptions, AlphaOfEdgesAndPanesIsTheCoveredShare) {
   // Over any background B, colour * alpha + B (1 - alpha) is the picture with that background.
-  for (const std::string model : {kBunny + " --samples 4", kModels + "blended_window.gltf"}) {
+  for (const std::string& model : {kBunny + " --samples 4", kModels + "blended_window.gltf"}) {
     const Picture clear = render(model + " --background none"),
                   white = render(model + " --background '#ffffff'");
     int partial = 0;
