@@ -2,30 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tessera::program {
 
-Vec3 origin_for(const std::vector<std::array<double, 3>>& positions) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
-  for (const std::array<double, 3>& p : positions) {
-    if (!std::isfinite(p[0] + p[1] + p[2])) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  }
-  std::array<double, 3> center{};
-  double extent = 0, distance = 0;
+void PositionBounds::add(double x, double y, double z) {
+  if (!std::isfinite(x + y + z)) return;
+  const std::array<double, 3> at{x, y, z};
   for (std::size_t k = 0; k < 3; ++k) {
-    center[k] = std::round((low[k] + high[k]) / 2);
-    extent = std::max(extent, high[k] - low[k]);
-    distance = std::max(distance, std::abs(center[k]));
+    low_[k] = std::min(low_[k], at[k]);
+    high_[k] = std::max(high_[k], at[k]);
   }
-  constexpr double kFar = 16;
-  if (!std::isfinite(distance) || !(distance > kFar * extent)) return {};
+}
+
+Vec3 PositionBounds::origin() const {
+  constexpr double kFarExtents = 16;
+  double distance = 0, extent = 0;
+  std::array<double, 3> center{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(low_[k] <= high_[k])) return {};
+    center[k] = std::round(low_[k] / 2 + high_[k] / 2);
+    distance = std::max(distance, std::abs(center[k]));
+    extent = std::max(extent, high_[k] - low_[k]);
+  }
+  if (!(distance > kFarExtents * extent)) return {};
   return {center[0], center[1], center[2]};
+}
+
+Vec3 origin_for(const std::vector<std::array<double, 3>>& positions) {
+  PositionBounds bounds;
+  for (const auto& [x, y, z] : positions) bounds.add(x, y, z);
+  return bounds.origin();
 }
 
 void append_relative(const std::vector<std::array<double, 3>>& positions, const Vec3& origin,
