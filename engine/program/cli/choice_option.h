@@ -1,4 +1,4 @@
-// Options that take one of several names.
+// Options that take one of several names, or a text with a parser.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/program/cli/validators.h"
+#include "engine/tessera/types.hpp"
 
 namespace tessera::program::cli {
 
@@ -30,6 +31,20 @@ void add_choice(CLI::App& command, const std::string& option, Target& target,
       if (choice.name == typed) target = choice.value;
   };
   command.add_option_function<std::string>(option, set, text)->option_text(value_text)->check(one_of(names));
+}
+
+/// Adds an option whose text becomes `target` = parse(text). An Error of `parse` becomes a usage error.
+template <class Target, class Parse>
+CLI::Option* add_parsed(CLI::App& command, const std::string& option, Target& target, const Parse& parse,
+                        const std::string& text) {
+  const auto set = [option, &target, parse](const std::string& typed) {
+    try {
+      target = parse(typed);
+    } catch (const Error& error) {
+      throw CLI::ValidationError(option, error.what());
+    }
+  };
+  return command.add_option_function<std::string>(option, set, text);
 }
 
 }  // namespace tessera::program::cli

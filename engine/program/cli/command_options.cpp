@@ -88,19 +88,11 @@ void add_scene_overrides(CLI::App& command, SceneOverrides& overrides) {
       command, "--shading", overrides.shading,
       {{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}},
       "shading of every draw");
-  command
-      .add_option_function<std::string>(
-          "--quality",
-          [&overrides](const std::string& text) {
-            try {
-              overrides.quality = parse_quality(text);
-            } catch (const Error& error) {
-              throw CLI::ValidationError("--quality", error.what());
-            }
-          },
-          "caps on what draws ask for, in place of the scene's: shading (as_asked, phong_2x2, phong_4x4, "
-          "gouraud, flat), renormalize (on, off), viewer (as_asked, infinite), interpolation (perspective, "
-          "affine), texture (as_asked, bilinear, nearest), light_threshold (0 to 1)")
+  add_parsed(
+      command, "--quality", overrides.quality, parse_quality,
+      "caps on what draws ask for, in place of the scene's: shading (as_asked, phong_2x2, phong_4x4, "
+      "gouraud, flat), renormalize (on, off), viewer (as_asked, infinite), interpolation (perspective, "
+      "affine), texture (as_asked, bilinear, nearest), light_threshold (0 to 1)")
       ->option_text("KEY=VALUE,...");
   command.add_option("--color-bits", overrides.color_bits, "colour planes: 1 .. 24")
       ->option_text("N")
@@ -128,18 +120,9 @@ void add_scene_overrides(CLI::App& command, SceneOverrides& overrides) {
 }
 
 void add_mode(CLI::App& command, SceneOverrides& overrides) {
-  command
-      .add_option_function<std::string>(
-          "--mode",
-          [&overrides](const std::string& name) {
-            try {
-              overrides.mode = named_display_mode(name);
-            } catch (const Error& error) {
-              throw CLI::ValidationError("--mode", error.what());
-            }
-          },
-          "display mode: size, colours and shape of the pixels; a name that tessera modes lists, with "
-          "parameters (cga:palette=0,background=1), or WIDTHxHEIGHTxBITS")
+  add_parsed(command, "--mode", overrides.mode, named_display_mode,
+             "display mode: size, colours and shape of the pixels; a name that tessera modes lists, with "
+             "parameters (cga:palette=0,background=1), or WIDTHxHEIGHTxBITS")
       ->option_text("NAME");
   command.add_flag("--reduce", overrides.reduce,
                    "draw at 24 bits and reduce the picture to the colours of the display mode");

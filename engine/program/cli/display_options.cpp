@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/program/cli/choice_option.h"
 #include "engine/program/cli/command_options.h"
 #include "engine/program/cli/output.h"
 #include "engine/program/cli/parse_overrides.h"
@@ -25,18 +26,9 @@ constexpr const char* kDisplayExamples = R"(Examples:
   tessera display --list                          kinds, parameters and presets)";
 
 void add_display_name(CLI::App& command, DisplayRequest& request) {
-  command
-      .add_option_function<std::string>(
-          "--display",
-          [&request](const std::string& text) {
-            try {
-              request.display = named_display(text);
-            } catch (const Error& error) {
-              throw CLI::ValidationError("--display", error.what());
-            }
-          },
-          "display that shows the picture: a kind (crt, lcd, plasma, eink, ntsc, pal) or a preset, with "
-          "parameters (crt:pitch=0.31,mask=grille); tessera display --list has all")
+  add_parsed(command, "--display", request.display, named_display,
+             "display that shows the picture: a kind (crt, lcd, plasma, eink, ntsc, pal) or a preset, with "
+             "parameters (crt:pitch=0.31,mask=grille); tessera display --list has all")
       ->option_text("NAME[:KEY=VALUE,...]");
 }
 
@@ -93,18 +85,10 @@ void add_pictures(CLI::App& command, DisplayCommandRequest& request) {
                   "compression of PNG files: 0 (none) .. 9 (smallest); default: 3")
       ->option_text("N")
       ->transform(integer_from(0, 9));
-  command
-      .add_option_function<std::string>(
-          "--mode",
-          [&request](const std::string& name) {
-            try {
-              request.mode = named_display_mode(name);
-            } catch (const Error& error) {
-              throw CLI::ValidationError("--mode", error.what());
-            }
-          },
-          "display mode of the pictures: shape of the pixels and timing; a name that tessera modes lists, or "
-          "WIDTHxHEIGHTxBITS; default: the pictures' size, square pixels, 60 Hz")
+  add_parsed(
+      command, "--mode", request.mode, named_display_mode,
+      "display mode of the pictures: shape of the pixels and timing; a name that tessera modes lists, or "
+      "WIDTHxHEIGHTxBITS; default: the pictures' size, square pixels, 60 Hz")
       ->option_text("NAME");
 }
 
