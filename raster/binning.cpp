@@ -376,11 +376,15 @@ void bin_pixels(Bins& bins, const TileGrid& grid, std::uint32_t draw, const Pixe
 
 ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_count) {
   ClipVertex v;
-  const float* p = draw.positions.at(vertex);
-  v.object = {p[0], p[1], p[2], draw.components == 4 ? p[3] : 1.0f};
-  const TransformedVertex transformed = transform_vertex(*draw.transform, *v.object);
-  v.position = transformed.position;
-  v.needs_exact = transformed.needs_exact;
+  if (draw.clip_positions != nullptr) {
+    v.position = draw.clip_positions[vertex];
+  } else {
+    const float* p = draw.positions.at(vertex);
+    v.object = {p[0], p[1], p[2], draw.components == 4 ? p[3] : 1.0f};
+    const TransformedVertex transformed = transform_vertex(*draw.transform, *v.object);
+    v.position = transformed.position;
+    v.needs_exact = transformed.needs_exact;
+  }
   const float* a = draw.attributes + std::size_t{vertex} * static_cast<std::size_t>(draw.attribute_stride);
   for (int j = 0; j < attribute_count; ++j) v.attributes[j] = a[j];
   return v;

@@ -47,7 +47,8 @@ struct BinDraw {
   // For clipping.
   const VertexTransform* transform = nullptr;
   StridedFloats positions;
-  int components = 3;  ///< components of a position: 3 or 4
+  int components = 3;                            ///< components of a position: 3 or 4
+  const ClipPosition* clip_positions = nullptr;  ///< per vertex, in place of `positions`; null: transformed
   const float* attributes = nullptr;
   int attribute_count = 0;
   int attribute_stride = 0;  ///< floats from vertex to vertex

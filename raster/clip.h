@@ -12,8 +12,9 @@
 namespace tessera::detail {
 
 /// Largest number of floats in an attribute record: normal, position, colour with alpha, texture coordinates,
-/// a captured normal. Attributes are interpolated linearly in clip space, as positions are.
-inline constexpr int kMaxAttributes = 16;
+/// a captured normal, and what user stages read. Attributes are interpolated linearly in clip space, as
+/// positions are.
+inline constexpr int kMaxAttributes = 28;
 /// Readable floats beyond the end of any attribute record, for loads of whole vectors.
 inline constexpr int kAttributePadding = 16;
 

@@ -28,11 +28,6 @@ HWY_INLINE double row_times_point(const double* row, double x, double y, double 
 
 HWY_INLINE double larger(double a, double b) { return a > b ? a : b; }
 
-/// Positions in object, clip or eye space.
-struct PositionBatch {
-  alignas(64) double x[kVertexBatch], y[kVertexBatch], z[kVertexBatch], w[kVertexBatch];
-};
-
 // Transposes rows of three floats into three arrays; elements from `count` on are 0.
 HWY_NOINLINE void gather_rows(StridedFloats rows, std::size_t count, double* x, double* y, double* z) {
   if (rows.stride == 3 && count == kVertexBatch) {
@@ -207,15 +202,21 @@ HWY_INLINE void store_vertices(const VertexTransform& t, const WindowBatch& wind
   if (rows == rest) std::memcpy(vertices, rest, count * sizeof *vertices);
 }
 
-std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats positions, int components,
-                                      std::size_t count, WindowVertex* vertices, std::uint8_t* outcodes) {
+// Clip-space positions and outcodes of a batch.
+HWY_INLINE void transform_batch(const VertexTransform& t, StridedFloats positions, int components,
+                                std::size_t count, PositionBatch& clip, double (&outcode)[kVertexBatch]) {
   PositionBatch p;
   gather_positions(positions, components, count, p);
-  PositionBatch clip;
   to_clip_space(t, p, clip);
-  alignas(64) double outcode[kVertexBatch], inexact[kVertexBatch];
+  alignas(64) double inexact[kVertexBatch];
   classify_vertices(t, p, clip, outcode, inexact);
   correct_inexact(t, p, count, inexact, clip, outcode);
+}
+
+// Window positions of a batch. Returns the bitwise or of the outcodes.
+HWY_INLINE std::uint8_t place_batch(const VertexTransform& t, const PositionBatch& clip,
+                                    const double (&outcode)[kVertexBatch], std::size_t count,
+                                    WindowVertex* vertices, std::uint8_t* outcodes) {
   WindowBatch window;
   to_window_space(t, clip, outcode, window);
   alignas(64) std::uint32_t depth_words[kVertexBatch];
@@ -229,6 +230,27 @@ std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats po
     all_outcodes |= bits[i];
   }
   return static_cast<std::uint8_t>(all_outcodes);
+}
+
+std::uint8_t transform_vertices_lanes(const VertexTransform& t, StridedFloats positions, int components,
+                                      std::size_t count, WindowVertex* vertices, std::uint8_t* outcodes) {
+  PositionBatch clip;
+  alignas(64) double outcode[kVertexBatch];
+  transform_batch(t, positions, components, count, clip, outcode);
+  return place_batch(t, clip, outcode, count, vertices, outcodes);
+}
+
+void clip_positions_lanes(const VertexTransform& t, StridedFloats positions, int components,
+                          std::size_t count, PositionBatch& clip) {
+  alignas(64) double outcode[kVertexBatch];
+  transform_batch(t, positions, components, count, clip, outcode);
+}
+
+std::uint8_t place_vertices_lanes(const VertexTransform& t, const PositionBatch& clip, std::size_t count,
+                                  WindowVertex* vertices, std::uint8_t* outcodes) {
+  alignas(64) double outcode[kVertexBatch], inexact[kVertexBatch];
+  classify_vertices(t, clip, clip, outcode, inexact);
+  return place_batch(t, clip, outcode, count, vertices, outcodes);
 }
 
 void eye_positions_lanes(const EyeTransform& t, StridedFloats positions, int components, std::size_t count,
@@ -304,6 +326,8 @@ namespace tessera::detail {
 TransformVertices* transform_vertices(InstructionSet isa) {
   return TESSERA_KERNEL(isa, transform_vertices_lanes);
 }
+ClipPositions* clip_positions(InstructionSet isa) { return TESSERA_KERNEL(isa, clip_positions_lanes); }
+PlaceVertices* place_vertices(InstructionSet isa) { return TESSERA_KERNEL(isa, place_vertices_lanes); }
 EyePositions* eye_positions(InstructionSet isa) { return TESSERA_KERNEL(isa, eye_positions_lanes); }
 EyeNormals* eye_normals(InstructionSet isa) { return TESSERA_KERNEL(isa, eye_normals_lanes); }
 

@@ -44,6 +44,11 @@ struct ClipPosition {
   double x = 0, y = 0, z = 0, w = 1;
 };
 
+/// Positions of a batch in object, clip or eye space.
+struct PositionBatch {
+  alignas(64) double x[kVertexBatch], y[kVertexBatch], z[kVertexBatch], w[kVertexBatch];
+};
+
 inline bool is_finite(const ClipPosition& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w);
 }
@@ -103,6 +108,16 @@ using TransformVertices = std::uint8_t(const VertexTransform& transform, Strided
                                        int components, std::size_t count, WindowVertex* vertices,
                                        std::uint8_t* outcodes);
 TransformVertices* transform_vertices(InstructionSet isa);
+
+/// Clip-space positions of up to kVertexBatch vertices: those of transform_vertex().
+using ClipPositions = void(const VertexTransform& transform, StridedFloats positions, int components,
+                           std::size_t count, PositionBatch& clip);
+ClipPositions* clip_positions(InstructionSet isa);
+/// The second half of TransformVertices, for given clip-space positions, which count as exact. Twins:
+/// compute_outcode() and project().
+using PlaceVertices = std::uint8_t(const VertexTransform& transform, const PositionBatch& clip,
+                                   std::size_t count, WindowVertex* vertices, std::uint8_t* outcodes);
+PlaceVertices* place_vertices(InstructionSet isa);
 
 /// Allowed lengths of eye-space normals. Shorter and longer normals are scaled to the nearer limit; zero
 /// normals stay.

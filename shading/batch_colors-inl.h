@@ -8,6 +8,7 @@
 #endif
 
 #include "shading/batch_surface-inl.h"
+#include "shading/stage_blocks-inl.h"
 #include "shading/texture_env-inl.h"
 #include "shading/texture_sampling-inl.h"
 #include "shading/tile_context-inl.h"
@@ -156,25 +157,30 @@ HWY_INLINE void clamp_colors(ShadingBatch& batch, int count) {
 }
 
 /// Applies the texture environment to colours and texels of the batch.
-inline HWY_NOINLINE void apply_texture_env(const DrawTexture& texture, ShadingBatch& batch, int count) {
+/// @param alpha  alpha of the points, in and out; null: not needed
+inline HWY_NOINLINE void apply_texture_env(const DrawTexture& texture, ShadingBatch& batch, float* alpha,
+                                           int count) {
   for (int point = 0; point < count; point += kLanes) {
     Colors colors{{hn::Zero(kFloat), hn::Zero(kFloat), hn::Zero(kFloat), splat(1.0f)}};
+    if (alpha != nullptr) colors.c[3] = hn::Load(kFloat, alpha + point);
     for (int c = 0; c < 3; ++c) colors.c[c] = hn::Load(kFloat, batch.field[kColorR + c] + point);
     colors = texture_env_lanes(texture, colors, texels_at(texture, batch, point));
     for (int c = 0; c < 3; ++c) hn::Store(colors.c[c], kFloat, batch.field[kColorR + c] + point);
+    if (alpha != nullptr) hn::Store(colors.c[3], kFloat, alpha + point);
   }
 }
 
 /// Turns gathered attributes into colours: 0..1, levels or indices, according to surface.packing.
+/// With a fragment stage, which runs afterwards, alpha is textured as well.
 /// @param count  number of points, rounded up to whole vectors; unused points may hold any bits
 HWY_INLINE void evaluate_colors(TileContext& context, const BatchSurface& surface, int count) {
   ShadingBatch& batch = context.memory.batch;
-  if (surface.is_constant)
-    fill_colors(context.frame.draws[surface.draw].color[surface.back ? 1 : 0].data(), batch, count);
+  if (surface.is_constant) fill_colors(surface.tile_draw->color[surface.back ? 1 : 0].data(), batch, count);
   if (surface.program != nullptr) light_points_lanes(*surface.program, batch, count);
   if (surface.clamps_colors) clamp_colors(batch, count);
   if (surface.gathers_coordinates) sample_texture_lanes(*surface.texture->levels, batch, count);
-  if (surface.texture != nullptr) apply_texture_env(*surface.texture, batch, count);
+  float* const alpha = surface.stage != nullptr ? context.memory.stage.field[kStageAlpha] : nullptr;
+  if (surface.texture != nullptr) apply_texture_env(*surface.texture, batch, alpha, count);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -8,6 +8,7 @@
 
 #include <type_traits>
 
+#include "shading/fragment_ops-inl.h"
 #include "shading/texture_coordinates-inl.h"
 #include "shading/tile_context-inl.h"
 
@@ -38,8 +39,12 @@ struct BatchSurface {
   int cell_size = 0;
   int cell_attribute_count = 0;
   const LightingProgram* cell_program = nullptr;
-  bool clamps_colors = false;            // extrapolated colours are clamped to 0..1
-  const DrawTexture* texture = nullptr;  // null: none
+  bool clamps_colors = false;                // extrapolated colours are clamped to 0..1
+  const DrawTexture* texture = nullptr;      // null: none
+  const TileFragmentStage* stage = nullptr;  // runs on the textured colours; null: none
+  int alpha_attribute = -1;                  // with a stage: the attribute of alpha; -1: `alpha` everywhere
+  float alpha = 1;
+  const TileDraw* tile_draw = nullptr;  // the draw whose colours these are
   Packing packing = Packing::unit;
 
   HWY_INLINE bool is_of(const ShadedTriangle& triangle) const {
@@ -64,14 +69,14 @@ HWY_INLINE bool attributes_clamp_to_range(const TileContext& context, const Tile
   return context.samples > 1 || (draw.source == ColorSource::interpolated && !draw.scaled_colors);
 }
 
-/// Sets `surface` to that of the triangle. @pre the batch is empty
+/// Sets `surface` to that of the triangle, with the colours of `draw`. @pre the batch is empty
 HWY_INLINE void begin_surface(const TileContext& context, BatchSurface& surface,
-                              const ShadedTriangle& triangle) {
-  const TileDraw& draw = context.frame.draws[triangle.draw];
+                              const ShadedTriangle& triangle, const TileDraw& draw) {
   const int face = triangle.back ? 1 : 0;
   const bool is_lit = draw.source == ColorSource::per_pixel;
   const bool is_index = draw.index[face];
   surface.draw = triangle.draw;
+  surface.tile_draw = &draw;
   surface.back = triangle.back;
   surface.is_constant = draw.source == ColorSource::constant;
   surface.program = is_lit ? draw.programs[face] : nullptr;
@@ -94,9 +99,16 @@ HWY_INLINE void begin_surface(const TileContext& context, BatchSurface& surface,
   surface.texture = texture_of(draw, triangle.back);
   surface.gathers_coordinates = surface.texture != nullptr && surface.texture->levels != nullptr;
   surface.coordinates.triangle = nullptr;
+  surface.stage = draw.stage;
+  surface.alpha_attribute = draw.alpha_attribute[face];
+  surface.alpha = surface.is_constant ? draw.color[face][3] : draw.alpha[face];
   surface.packing = BatchSurface::Packing::unit;
   if (!is_lit && draw.scaled_colors) surface.packing = BatchSurface::Packing::levels;
   if (is_index) surface.packing = BatchSurface::Packing::indices;
+}
+HWY_INLINE void begin_surface(const TileContext& context, BatchSurface& surface,
+                              const ShadedTriangle& triangle) {
+  begin_surface(context, surface, triangle, context.frame.draws[triangle.draw]);
 }
 
 /// The texture coordinates of a triangle. @pre the texture has levels
@@ -104,8 +116,7 @@ HWY_INLINE const TextureCoordinates& coordinates_in(const TileContext& context, 
                                                     const ShadedTriangle& triangle) {
   if (surface.coordinates.triangle != &triangle)
     surface.coordinates.set_up(triangle, context.memory.edges64.data(), *surface.texture,
-                               context.frame.draws[surface.draw].topology == Topology::lines,
-                               context.samples);
+                               surface.tile_draw->topology == Topology::lines, context.samples);
   return surface.coordinates;
 }
 
@@ -119,12 +130,42 @@ inline HWY_NOINLINE void gather_coordinates(const TileContext& context, BatchSur
   });
 }
 
+/// Calls store(field, value) for each interpolated input of the surface's fragment stage (StageField).
+template <class Store>
+HWY_INLINE void interpolate_stage_inputs(const TileContext& context, const BatchSurface& surface,
+                                         const ShadedTriangle& triangle, const Barycentric& at,
+                                         const Store& store) {
+  const TileFragmentStage& stage = *surface.stage;
+  const bool clamps = context.samples > 1 && surface.tile_draw->topology != Topology::lines;
+  const auto interpolate_each = [&](int attribute, int field, int count) HWY_ATTR {
+    for (int k = 0; k < count && attribute >= 0; ++k)
+      store(field + k, interpolate_clamped(at, make_interpolant(triangle, attribute + k, clamps)));
+  };
+  interpolate_each(stage.eye, kStageEye, 3);
+  interpolate_each(stage.normal, kStageNormal, 3);
+  interpolate_each(stage.extras, kStageExtras, stage.stage.reads.extras);
+  if (surface.alpha_attribute < 0) return;
+  const Interpolant alpha = make_interpolant(triangle, surface.alpha_attribute,
+                                             attributes_clamp_to_range(context, *surface.tile_draw));
+  store(kStageAlpha, clamped_unit(interpolate_clamped(at, alpha)));
+}
+/// Stores these inputs in the chunk of points from `point` on, in the lanes of `mask`.
+inline HWY_NOINLINE void gather_stage_inputs(const TileContext& context, const BatchSurface& surface,
+                                             const ShadedTriangle& triangle, const Barycentric& at,
+                                             LaneMask mask, int point) {
+  const auto lanes = hn::RebindMask(kFloat, mask);
+  interpolate_stage_inputs(context, surface, triangle, at, [&](int field, Float value) HWY_ATTR {
+    store_where(lanes, value, kFloat, context.memory.stage.field[field] + point);
+  });
+}
+
 /// Number of attributes, if gather_block_span() has a specialization for it: 1, 3 or 6 in adjacent arrays,
-/// without clamping to a range and without texture coordinates. Otherwise 0.
+/// without clamping to a range, texture coordinates and fragment stage. Otherwise 0.
 HWY_INLINE int known_count(const BatchSurface& surface) {
   const int count = surface.attribute_count;
   const bool has_special_count = count == 1 || count == 3 || count == 6;
-  const bool is_plain = surface.adjacent && !surface.clamps_to_range && !surface.gathers_coordinates;
+  const bool gathers_others = surface.gathers_coordinates || surface.stage != nullptr;
+  const bool is_plain = surface.adjacent && !surface.clamps_to_range && !gathers_others;
   return has_special_count && is_plain ? count : 0;
 }
 /// Calls body(count), where count.value is known_count() as a constant.
@@ -166,6 +207,8 @@ HWY_INLINE void gather_values(const TileContext& context, BatchSurface& surface,
     }
     if (kCount == 0 && surface.gathers_coordinates)
       gather_coordinates(context, surface, triangle, weights, mask, point);
+    if (kCount == 0 && surface.stage != nullptr)
+      gather_stage_inputs(context, surface, triangle, weights, mask, point);
   }
 }
 /// gather_values() for wide triangles, and for all points and lines. Compiled once: few triangles are wide.

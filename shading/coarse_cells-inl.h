@@ -183,7 +183,7 @@ inline HWY_NOINLINE void add_cells(const TileContext& context, const BatchSurfac
                                    const ShadedTriangle& triangle, int bx, int by, std::uint32_t covered,
                                    CellBatch& cells, std::int32_t* cell_of_pixel) {
   const Edges64* const edges64 = context.memory.edges64.data();
-  const std::uint8_t* const fields = context.frame.draws[surface.draw].fields;
+  const std::uint8_t* const fields = surface.tile_draw->fields;
   const int size = surface.cell_size;
   const std::uint32_t wanted = cells_of_pixels(size, covered);
   const std::int32_t* const ranks = cell_ranks(size, wanted);

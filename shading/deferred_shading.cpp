@@ -13,6 +13,7 @@
 #include "shading/batch_surface-inl.h"
 #include "shading/coarse_cells-inl.h"
 #include "shading/draw_functions-inl.h"
+#include "shading/stage_blocks-inl.h"
 #include "shading/tile_context-inl.h"
 #include "shading/visibility-inl.h"
 
@@ -118,11 +119,32 @@ HWY_INLINE std::uint32_t take_surface_pixels(const TileContext& context, PixelBa
 }
 #endif
 
+/// Runs the fragment stage on the batch, whose colours are evaluated.
+HWY_NOINLINE void run_stage_on_blocks(TileContext& context, PixelBatch& pixels) {
+  const TileFragmentStage& stage = *pixels.stage;
+  const TileStageDepth* const depth = context.memory.stage_depth.get();
+  for (int slot = 0; slot < pixels.blocks; ++slot) {
+    const int first = slot * kBlockPixels;
+    if (stage.stage.reads.position) store_positions(context, pixels.bx[slot], pixels.by[slot], first);
+    if (stage.stage.reads.depth) store_depths(context, depth->key + pixels.index[slot], first);
+    if (pixels.covered[slot] != kWholeBlock)
+      repeat_covered_point(context, stage, first, pixels.covered[slot]);
+  }
+  run_stage(context, pixels, pixels.blocks * kBlockPixels);
+  for (int slot = 0; slot < pixels.blocks; ++slot)
+    context.counts.non_finite_fragments += static_cast<std::uint64_t>(
+        std::popcount(clamp_block_colors(context, slot * kBlockPixels) & pixels.covered[slot]));
+}
+
 /// Evaluates and stores the colours of the batch, whose attributes are gathered, and empties it.
 HWY_INLINE void store_batch(TileContext& context, PixelBatch& pixels) {
   const TileDraw& draw = context.frame.draws[pixels.draw];
   const ShadingBatch& batch = context.memory.batch;
-  evaluate_colors(context, pixels, pixels.blocks * kBlockPixels);
+  const int count = pixels.blocks * kBlockPixels;
+  if (pixels.stage != nullptr && pixels.alpha_attribute < 0)
+    std::fill_n(context.memory.stage.field[kStageAlpha], count, pixels.alpha);
+  evaluate_colors(context, pixels, count);
+  if (pixels.stage != nullptr) run_stage_on_blocks(context, pixels);
   if (draw.captures_normals)
     for (int slot = 0; slot < pixels.blocks; ++slot)
       store_normals(context, pixels.index[slot], pixels.covered[slot], slot * kBlockPixels);
@@ -147,9 +169,9 @@ HWY_INLINE void store_batch(TileContext& context, PixelBatch& pixels) {
   pixels.blocks = 0;
 }
 
-/// Gathers the texture coordinates of a block in slot `slot` of the batch.
-HWY_INLINE void gather_block_coordinates(const TileContext& context, PixelBatch& pixels, int slot,
-                                         const std::int32_t* visibility) {
+/// Gathers what the pixels of a block need besides the colours of their cells, in slot `slot` of the batch.
+HWY_INLINE void gather_pixel_inputs(const TileContext& context, PixelBatch& pixels, int slot,
+                                    const std::int32_t* visibility) {
   for (std::uint32_t left = pixels.covered[slot]; left != 0;) {
     const std::int32_t id = visibility[std::countr_zero(left)];
     const std::uint32_t covered = pixels_of(visibility, id);
@@ -159,7 +181,12 @@ HWY_INLINE void gather_block_coordinates(const TileContext& context, PixelBatch&
   }
 }
 
-/// Stores the lit colours of the cells in the pixels of the blocks. @pre no texture and no dither
+/// Whether pixels need more than the colours of their cells.
+HWY_INLINE bool gathers_pixel_inputs(const BatchSurface& surface) {
+  return surface.gathers_coordinates || surface.stage != nullptr;
+}
+
+/// Stores the lit colours of the cells in the pixels of the blocks. @pre no texture, no dither and no stage
 HWY_INLINE void store_cells(TileContext& context, const PixelBatch& pixels, const CoarseBlocks& coarse,
                             const CellBatch& cells) {
   alignas(64) std::int32_t packed[kBatchPoints];
@@ -189,9 +216,9 @@ HWY_INLINE void store_cell_pixels(TileContext& context, PixelBatch& pixels, cons
     std::copy_n(coarse.by + first, count, pixels.by);
     std::copy_n(coarse.covered + first, count, pixels.covered);
     pixels.blocks = count;
-    if (pixels.gathers_coordinates)
+    if (gathers_pixel_inputs(pixels))
       for (int slot = 0; slot < count; ++slot)
-        gather_block_coordinates(context, pixels, slot, coarse.visibility + (first + slot) * kBlockPixels);
+        gather_pixel_inputs(context, pixels, slot, coarse.visibility + (first + slot) * kBlockPixels);
     spread_cells(cells, coarse.cell_of_pixel + first * kBlockPixels, context.memory.batch,
                  count * kBlockPixels);
     store_batch(context, pixels);
@@ -202,8 +229,8 @@ HWY_INLINE void store_cell_pixels(TileContext& context, PixelBatch& pixels, cons
 HWY_NOINLINE void shade_coarse_blocks(TileContext& context, PixelBatch& pixels, CoarseBlocks& coarse) {
   CellBatch& cells = context.memory.cells;
   light_cells(pixels, cells);
-  const bool has_equal_pixels =
-      pixels.texture == nullptr && context.frame.draws[pixels.draw].dither == nullptr;
+  const bool has_dither = context.frame.draws[pixels.draw].dither != nullptr;
+  const bool has_equal_pixels = pixels.texture == nullptr && !has_dither && pixels.stage == nullptr;
   if (has_equal_pixels) store_cells(context, pixels, coarse, cells);
   else store_cell_pixels(context, pixels, coarse, cells);
   coarse.count = cells.count = 0;
@@ -228,7 +255,7 @@ HWY_NOINLINE std::uint32_t take_coarse_pixels(TileContext& context, PixelBatch& 
               covered, cells, coarse.cell_of_pixel + block * kBlockPixels);
     taken |= covered;
   }
-  if (pixels.gathers_coordinates)
+  if (gathers_pixel_inputs(pixels))
     std::copy_n(visibility, kBlockPixels, coarse.visibility + block * kBlockPixels);
   coarse.index[block] = index;
   coarse.bx[block] = bx;

@@ -12,6 +12,7 @@
 #include "shading/batch_surface-inl.h"
 #include "shading/coarse_cells-inl.h"
 #include "shading/draw_functions-inl.h"
+#include "shading/stage_blocks-inl.h"
 #include "shading/visibility-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -59,7 +60,15 @@ HWY_INLINE void shade_points(TileContext& context, const SampledBatch& points, s
     spread_cells(context.memory.cells, points.cell_of_point, context.memory.batch, whole_count);
     context.memory.cells.count = 0;
   }
+  if (points.stage != nullptr && points.alpha_attribute < 0)
+    std::fill_n(context.memory.stage.field[kStageAlpha], whole_count, points.alpha);
   evaluate_colors(context, points, whole_count);
+  if (points.stage != nullptr) {
+    run_stage(context, points, points.count);
+    for (int point = 0; point < points.count; point += kLanes)
+      context.counts.non_finite_fragments += static_cast<std::uint64_t>(std::popcount(
+          clamp_stage_colors(context, point) & low_bits_mask(std::min(points.count - point, kLanes))));
+  }
   for (int point = 0; point < points.count; point += kLanes) {
     const int count = std::min(points.count - point, kLanes);
     // In frames with several samples colours are neither indices nor scaled to levels.
@@ -97,6 +106,22 @@ inline HWY_NOINLINE void add_coordinates(const TileContext& context, SampledBatc
     hn::StoreU(hn::TableLookupLanes(value, packing), kFloat,
                context.memory.batch.field[field] + points.count);
   });
+}
+
+/// Adds the inputs of the fragment stage at the points of one chunk.
+inline HWY_NOINLINE void add_stage_inputs(const TileContext& context, const SampledBatch& points,
+                                          const ShadedTriangle& triangle, const Barycentric& at, int bx,
+                                          int by, int chunk, std::uint32_t bits) {
+  const auto packing = compress_indices(kFloat, bits);
+  const auto store = [&](int field, Float value) HWY_ATTR {
+    hn::StoreU(hn::TableLookupLanes(value, packing), kFloat,
+               context.memory.stage.field[field] + points.count);
+  };
+  interpolate_stage_inputs(context, points, triangle, at, store);
+  if (!points.stage->stage.reads.position) return;
+  const WindowPositions position = window_positions(context, bx, by, chunk);
+  store(kStageX, position.x);
+  store(kStageY, position.y);
 }
 
 /// Coarse shading: adds the cells of the visible pixels of one triangle in one block, and stores the cell of
@@ -142,6 +167,8 @@ HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, c
       hn::StoreU(hn::TableLookupLanes(value, packing), kFloat, target + points.count);
     }
     if (kCount == 0 && points.gathers_coordinates) add_coordinates(context, points, triangle, at, bits);
+    if (kCount == 0 && points.stage != nullptr)
+      add_stage_inputs(context, points, triangle, at, bx, by, chunk, bits);
     SampledSpan& span = points.spans[points.span_count++];
     span.point = points.count;
     span.index = index + chunk * kLanes;
@@ -155,7 +182,7 @@ HWY_INLINE void add_points_counted(TileContext& context, SampledBatch& points, c
 inline HWY_NOINLINE void add_points(TileContext& context, SampledBatch& points,
                                     const ShadedTriangle& triangle, int bx, int by, int index,
                                     const SampleMasks& visible) {
-  const bool is_plain = points.adjacent && !points.gathers_coordinates;
+  const bool is_plain = points.adjacent && !points.gathers_coordinates && points.stage == nullptr;
   switch (is_plain ? points.attribute_count : 0) {
     case 3: return add_points_counted<3>(context, points, triangle, bx, by, index, visible);
     case 6: return add_points_counted<6>(context, points, triangle, bx, by, index, visible);

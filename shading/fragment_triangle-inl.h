@@ -29,6 +29,7 @@ inline constexpr FragmentOps kNoOperations{};
 struct FragmentTriangle {
   TileContext& context;
   const TileDraw& draw;
+  const TileDraw& colors_of;  // the draw whose colours are evaluated: `draw`, except in captures
   const FragmentOps& ops;
   const ShadedTriangle& triangle;
   const int face;  // 0 front, 1 back
@@ -42,6 +43,7 @@ struct FragmentTriangle {
   // Colours of the current block: all r, then all g, b and a; null: the triangle's.
   const float* block_colors = nullptr;
   bool visible = false;              // a fragment has passed the tests
+  const bool runs_stage_first;       // the fragment stage decides which fragments pass
   const DrawTexture* texture;        // null: none
   TextureCoordinates coordinates{};  // for a texture with levels
   BatchSurface surface;              // if evaluates_colors
@@ -49,18 +51,20 @@ struct FragmentTriangle {
   HWY_INLINE FragmentTriangle(TileContext& tile_context, const ShadedTriangle& shaded)
       : context(tile_context),
         draw(tile_context.frame.draws[shaded.draw]),
+        colors_of(draw.colors_of != nullptr ? *draw.colors_of : draw),
         ops(draw.ops != nullptr ? *draw.ops : kNoOperations),
         triangle(shaded),
         face(shaded.back ? 1 : 0),
         has_depth(draw.path.uses_depth()),
         evaluates_colors(needs_colors(draw)),
-        texture(texture_of(draw, shaded.back)) {
+        runs_stage_first(draw.stage != nullptr && draw.stage->runs_before_tests),
+        texture(texture_of(colors_of, shaded.back)) {
     if (ops.stencil) stencil = stencil_test_constants(ops.faces[face], ops.stencil_max);
   }
   /// Prepares the evaluation of colours. @pre flat_color and block_colors are set
   HWY_INLINE void begin_colors() {
     if (!evaluates_colors) return;
-    begin_surface(context, surface, triangle);
+    begin_surface(context, surface, triangle, colors_of);
     surface.gathers_coordinates = false;  // sample_block() samples the texture, possibly before the tests
     // In a capture of normals a flat draw has a lighting program too; its flat colour then serves the alpha
     // test only.
@@ -71,7 +75,7 @@ struct FragmentTriangle {
   }
   /// Whether the alpha test depends on the texture.
   HWY_INLINE bool tests_texels() const {
-    return ops.alpha_test && texture != nullptr && texture->changes_alpha();
+    return ops.alpha_test && !runs_stage_first && texture != nullptr && texture->changes_alpha();
   }
 
   /// Draws the fragments of one block.
@@ -83,14 +87,19 @@ struct FragmentTriangle {
   /// Kind::triangles_msaa send groups with wide triangles here.
   static HWY_INLINE bool needs_colors(const TileDraw& draw) {
     return draw.path.color_write == ColorWrite::evaluated ||
-           draw.path.color_write == ColorWrite::interpolated || draw.captures_normals;
+           draw.path.color_write == ColorWrite::interpolated || draw.captures_normals ||
+           (draw.stage != nullptr && draw.stage->runs_before_tests);
   }
 
   // fragment_triangle.cpp
   void sample_block(int bx, int by, std::uint32_t bits);
   std::uint32_t test(const TileAttachments& sample, int bx, int by, const BlockFragments& block);
-  void store_ids(int index, const std::uint32_t* passed);
+  void store_ids(int index, const std::uint32_t* passed, const BlockFragments* blocks);
   void evaluate_block(int bx, int by, std::uint32_t bits);
+  bool run_stage_before_tests(int bx, int by, const BlockFragments* blocks, BlockFragments* kept);
+  std::uint32_t run_stage_on_block(int bx, int by, const Int* keys, std::uint32_t bits);
+  void capture_block_normals(int bx, int by, std::uint32_t bits);
+  Float alpha_of_chunk(int bx, int by, int chunk) const;
   Barycentric at(int bx, int by, int chunk) const;
   Float untextured_alpha(int bx, int by, int chunk) const;
   Float textured_alpha(Float untextured, int chunk) const;
@@ -113,7 +122,8 @@ HWY_INLINE void draw_fragments_of(TileContext& context, int i, const ShadedTrian
     fragments.packed_color = is_primitive_number ? memory.source[i] / draw.primitive_triangles
                                                  : packed_color_of(context, draw, i, triangle.back);
   }
-  if (draw.flat) fragments.flat_color = flat_color(draw, memory.source[i], triangle.back);
+  if (fragments.colors_of.flat)
+    fragments.flat_color = flat_color(fragments.colors_of, memory.source[i], triangle.back);
   fragments.begin_colors();
   const bool has_levels = fragments.texture != nullptr && fragments.texture->levels != nullptr;
   if (has_levels && (!draw.deferred || fragments.tests_texels()))

@@ -9,12 +9,18 @@
 #include "shading/batch_colors-inl.h"
 #include "shading/coarse_cells-inl.h"
 #include "shading/fragment_triangle-inl.h"
+#include "shading/stage_blocks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 HWY_NOINLINE void FragmentTriangle::operator()(int bx, int by, const BlockFragments* blocks) {
+  BlockFragments kept[kMaxSamples];
+  if (runs_stage_first) {
+    if (!run_stage_before_tests(bx, by, blocks, kept)) return;
+    blocks = kept;
+  }
   if (tests_texels()) {
     std::uint32_t covered = 0;
     for (int s = 0; s < context.samples; ++s)
@@ -33,9 +39,16 @@ HWY_NOINLINE void FragmentTriangle::operator()(int bx, int by, const BlockFragme
   if (passed_any == 0 || color_write == ColorWrite::none) return;
   visible = true;
   const int index = context.block_index(bx, by);
-  if (color_write == ColorWrite::deferred) return store_ids(index, passed);
+  if (color_write == ColorWrite::deferred) return store_ids(index, passed, blocks);
   context.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(passed_any));
-  if (evaluates_colors) evaluate_block(bx, by, passed_any);
+  if (runs_stage_first) {
+    if (draw.captures_normals) capture_block_normals(bx, by, passed_any);
+  } else if (evaluates_colors) {
+    evaluate_block(bx, by, passed_any);
+    if (draw.stage != nullptr)
+      context.counts.non_finite_fragments +=
+          static_cast<std::uint64_t>(std::popcount(run_stage_on_block(bx, by, blocks[0].keys, passed_any)));
+  }
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     if (chunk_bits(passed_any, chunk) == 0) continue;
     const Colors source = color_write == ColorWrite::constant ? Colors{} : colors(bx, by, chunk);
@@ -61,7 +74,7 @@ HWY_INLINE std::uint32_t FragmentTriangle::test(const TileAttachments& sample, i
     LaneMask mask = hn::MaskFromVec(block.covered[chunk]);
     if (hn::AllFalse(kInt, mask)) continue;
     if (ops.alpha_test) {
-      const Float alpha = textured_alpha(untextured_alpha(bx, by, chunk), chunk);
+      const Float alpha = alpha_of_chunk(bx, by, chunk);
       const auto alpha_passed = compare_lanes(alpha, ops.alpha_func, splat(ops.alpha_reference));
       mask = hn::And(mask, hn::RebindMask(kInt, alpha_passed));
     }
@@ -102,9 +115,17 @@ HWY_NOINLINE void FragmentTriangle::sample_block(int bx, int by, std::uint32_t b
 }
 
 /// ColorWrite::deferred: stores the triangle's number in the visibility buffer.
+/// With a stage that reads depth, the depth keys are stored, too.
 /// @param index   of the block's first pixel in the tile
 /// @param passed  visible pixels of each sample
-HWY_INLINE void FragmentTriangle::store_ids(int index, const std::uint32_t* passed) {
+HWY_INLINE void FragmentTriangle::store_ids(int index, const std::uint32_t* passed,
+                                            const BlockFragments* blocks) {
+  const bool keeps_depth = draw.stage != nullptr && draw.stage->stage.reads.depth;
+  for (int chunk = 0; keeps_depth && chunk < kChunksPerBlock; ++chunk) {
+    std::int32_t* const keys = context.memory.stage_depth->key + index + chunk * kLanes;
+    const LaneMask mask = mask_from_bits(passed[0] >> (chunk * kLanes));
+    hn::Store(hn::IfThenElse(mask, blocks[0].keys[chunk], hn::Load(kInt, keys)), kInt, keys);
+  }
   for (int s = 0; s < context.samples; ++s)
     for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
       auto* const ids =
@@ -137,10 +158,100 @@ HWY_INLINE void FragmentTriangle::evaluate_block(int bx, int by, std::uint32_t b
     });
   }
   const bool is_sampled = tests_texels();  // before the alpha test
-  const bool uses_texels = texture != nullptr && draw.path.color_write != ColorWrite::constant;
+  const bool writes_given_color = draw.path.color_write == ColorWrite::constant && !runs_stage_first;
+  const bool uses_texels = texture != nullptr && !writes_given_color;
   if (uses_texels && !is_sampled) sample_block(bx, by, bits);
+  if (draw.stage != nullptr) {
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+      hn::Store(surface.is_constant ? splat(surface.alpha) : untextured_alpha(bx, by, chunk), kFloat,
+                context.memory.stage.field[kStageAlpha] + chunk * kLanes);
+  }
   evaluate_colors(context, surface, kBlockPixels);
-  if (draw.captures_normals) store_normals(context, context.block_index(bx, by), bits, 0);
+  if (draw.captures_normals && !runs_stage_first)
+    store_normals(context, context.block_index(bx, by), bits, 0);
+}
+
+/// Runs the fragment stage on the block, whose colours are evaluated.
+/// @param keys  depth keys of sample 0
+/// @param bits  fragments, not 0
+/// @return  those of them with a colour that is not finite
+HWY_NOINLINE std::uint32_t FragmentTriangle::run_stage_on_block(int bx, int by, const Int* keys,
+                                                                std::uint32_t bits) {
+  const TileFragmentStage& stage = *draw.stage;
+  if (stage.stage.reads.position) store_positions(context, bx, by, 0);
+  if (stage.stage.reads.depth) {
+    alignas(64) std::int32_t stored[kBlockPixels];
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+      hn::Store(keys[chunk], kInt, stored + chunk * kLanes);
+    store_depths(context, stored, 0);
+  } else if (stage.stage.writes_depth) {
+    std::fill_n(context.memory.stage.depth, kBlockPixels, 0.0);
+  }
+  const bool is_gathered = surface.attribute_count > 0;  // with the attributes
+  for (int chunk = 0; !is_gathered && chunk < kChunksPerBlock; ++chunk) {
+    if (chunk_bits(bits, chunk) == 0) continue;
+    interpolate_stage_inputs(context, surface, triangle, at(bx, by, chunk),
+                             [&](int field, Float value) HWY_ATTR {
+                               if (field != kStageAlpha)
+                                 hn::Store(value, kFloat, context.memory.stage.field[field] + chunk * kLanes);
+                             });
+  }
+  if (bits != kWholeBlock) repeat_covered_point(context, stage, 0, bits);
+  run_stage(context, surface, kBlockPixels);
+  return clamp_block_colors(context, 0) & bits;
+}
+
+/// Runs the fragment stage on the fragments that the depth test does not reject anyway.
+/// @param blocks  one per sample
+/// @param kept    receives the fragments that the stage keeps, with their depths
+/// @return  false if none is left
+HWY_NOINLINE bool FragmentTriangle::run_stage_before_tests(int bx, int by, const BlockFragments* blocks,
+                                                           BlockFragments* kept) {
+  const FragmentStage& stage = draw.stage->stage;
+  const int index = context.block_index(bx, by);
+  const bool rejects_early = has_depth && !stage.writes_depth && !stencil.writes();
+  std::uint32_t bits = 0;
+  for (int s = 0; s < context.samples; ++s)
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      LaneMask mask = hn::MaskFromVec(blocks[s].covered[chunk]);
+      if (rejects_early)
+        mask = hn::And(mask, compare_lanes(blocks[s].keys[chunk], draw.depth_test,
+                                           hn::Load(kInt, context.sample[s].depth + index + chunk * kLanes)));
+      kept[s].covered[chunk] = hn::VecFromMask(kInt, mask);
+      kept[s].keys[chunk] = blocks[s].keys[chunk];
+      bits |= mask_bits(kInt, mask) << (chunk * kLanes);
+    }
+  if (bits == 0) return false;
+  evaluate_block(bx, by, bits);
+  std::uint32_t non_finite = run_stage_on_block(bx, by, blocks[0].keys, bits);
+  alignas(64) std::int32_t keys[kBlockPixels] = {};
+  if (stage.writes_depth) {
+    const std::uint32_t dropped = bits & ~written_keys(context, keys);
+    non_finite |= dropped;
+    bits &= ~dropped;
+  }
+  for (int i = 0; stage.discards && i < kBlockPixels; ++i)
+    if (context.memory.stage.keep[i] == 0) bits &= ~(1u << i);
+  context.counts.non_finite_fragments += static_cast<std::uint64_t>(std::popcount(non_finite));
+  for (int s = 0; s < context.samples; ++s)
+    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
+      kept[s].covered[chunk] =
+          hn::And(kept[s].covered[chunk], hn::VecFromMask(kInt, mask_from_bits(chunk_bits(bits, chunk))));
+      if (stage.writes_depth && has_depth) kept[s].keys[chunk] = hn::Load(kInt, keys + chunk * kLanes);
+    }
+  return bits != 0;
+}
+
+/// Captures: stores the normals of a draw whose stage has run before the tests.
+HWY_NOINLINE void FragmentTriangle::capture_block_normals(int bx, int by, std::uint32_t bits) {
+  BatchSurface normals;
+  begin_surface(context, normals, triangle, draw);
+  normals.stage = nullptr;
+  normals.gathers_coordinates = false;
+  const InterpolantArrays values(triangle, normals.first_attribute, normals.attribute_count);
+  gather_block_span<0>(context, normals, triangle, values, bx, by, bits, 0);
+  light_points_lanes(*normals.program, context.memory.batch, kBlockPixels);
+  store_normals(context, context.block_index(bx, by), bits, 0);
 }
 
 HWY_INLINE Barycentric FragmentTriangle::at(int bx, int by, int chunk) const {
@@ -151,9 +262,10 @@ HWY_INLINE Barycentric FragmentTriangle::at(int bx, int by, int chunk) const {
 HWY_INLINE Float FragmentTriangle::untextured_alpha(int bx, int by, int chunk) const {
   if (block_colors != nullptr) return hn::Load(kFloat, block_colors + 3 * kBlockPixels + chunk * kLanes);
   if (flat_color != nullptr) return splat(flat_color[3]);
-  const int attribute = draw.alpha_attribute[face];
-  if (attribute < 0) return splat(draw.alpha[face]);
-  const Interpolant alpha = make_interpolant(triangle, attribute, attributes_clamp_to_range(context, draw));
+  const int attribute = colors_of.alpha_attribute[face];
+  if (attribute < 0) return splat(colors_of.alpha[face]);
+  const Interpolant alpha =
+      make_interpolant(triangle, attribute, attributes_clamp_to_range(context, colors_of));
   return clamped_unit(interpolate_clamped(at(bx, by, chunk), alpha));
 }
 
@@ -164,12 +276,22 @@ HWY_INLINE Float FragmentTriangle::textured_alpha(Float untextured, int chunk) c
   return texture_env_alpha(*texture, untextured, texels.c[3]);
 }
 
+/// Alpha of a chunk for the alpha test. @pre the batch has the texels, or the stage has run
+HWY_INLINE Float FragmentTriangle::alpha_of_chunk(int bx, int by, int chunk) const {
+  if (runs_stage_first) return hn::Load(kFloat, context.memory.stage.field[kStageAlpha] + chunk * kLanes);
+  return textured_alpha(untextured_alpha(bx, by, chunk), chunk);
+}
+
 /// Evaluated colours 0..1 of a chunk; or an index in place of red.
 HWY_INLINE Colors FragmentTriangle::colors(int bx, int by, int chunk) const {
   Colors out{};
   for (int c = 0; c < 3; ++c)
     out.c[c] = hn::Load(kFloat, context.memory.batch.field[kColorR + c] + chunk * kLanes);
   if (draw.index[face]) return out;
+  if (draw.stage != nullptr) {
+    out.c[3] = hn::Load(kFloat, context.memory.stage.field[kStageAlpha] + chunk * kLanes);
+    return out;
+  }
   const Float alpha = surface.is_constant ? splat(draw.color[face][3]) : untextured_alpha(bx, by, chunk);
   out.c[3] = textured_alpha(alpha, chunk);
   return out;

@@ -47,6 +47,7 @@ bool is_plain_blend(const PixelPathFrame& frame, const TileDraw& draw) {
   if (!is_rgb8(frame.layout) || draw.texture != nullptr) return false;
   if (ops.dither || ops.logic != LogicOp::copy) return false;
   if (draw.source != ColorSource::interpolated && draw.source != ColorSource::constant) return false;
+  if (draw.stage != nullptr) return false;
   if (!ops.blend || ops.equation != BlendEquation::add) return false;
   return ops.src_color == BlendFactor::src_alpha && ops.dst_color == BlendFactor::one_minus_src_alpha;
 }
@@ -56,6 +57,7 @@ bool is_plain_blend(const PixelPathFrame& frame, const TileDraw& draw) {
 bool triangles_take_operations(const PixelPathFrame& frame, const TileDraw& draw, ColorWrite& color_write) {
   if (frame.samples > 1 || draw.ops->alpha_test) return false;
   if (draw.id_output != TileDraw::IdOutput::none || has_offset(draw)) return false;
+  if (draw.stage != nullptr && (draw.stage->runs_before_tests || draw.stage->stage.reads.depth)) return false;
   if (draw.source == ColorSource::none || draw.deferred || draw.plain_colors) {
     color_write = plain_color_write(draw);
     return true;

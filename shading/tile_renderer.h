@@ -16,6 +16,7 @@
 #include "raster/triangle_setup.h"
 #include "shading/draw_meter.h"
 #include "shading/fragment_ops.h"
+#include "shading/fragment_stage.h"
 #include "shading/lighting.h"
 #include "shading/pixel_path.h"
 #include "shading/texture.h"
@@ -82,6 +83,11 @@ struct TileDraw {
   /// Dither of the visible pixels; null: none. @pre if set: without `ops`, deferred, one sample per pixel,
   /// colours 0..1
   const ColorDither* dither = nullptr;
+  /// Null: none. @pre if set: `ops` is set, colours are 0..1 and no indices; if it runs before the tests,
+  /// reads depth in frames with several samples, or `flat` is set: without `deferred`
+  const TileFragmentStage* stage = nullptr;
+  /// For captures: the draw with the colours that `stage` reads; null: this one.
+  const TileDraw* colors_of = nullptr;
   bool captures_normals = false;  ///< per_pixel: normals are also stored in the workspace's normals()
 
   /// Triangles behind everything in their tile are left out before they are set up. @pre filled triangles
@@ -142,7 +148,8 @@ struct TileFrame {
   const BinBatches* batches = nullptr;  ///< @pre index_batches() has run for the tile
   /// Shade after each triangle; with several samples, after each group of them.
   bool shade_immediately = false;
-  int samples = 1;  ///< coverage samples per pixel: 1, 4 or 8
+  int samples = 1;                        ///< coverage samples per pixel: 1, 4 or 8
+  StageFailure* stage_failure = nullptr;  ///< @pre if a draw has a fragment stage: not null
   /// Samples start with the buffer's contents in the workspace. If not set, a command overwrites the whole
   /// buffer before it is read.
   bool loads_color = false, loads_depth = false, loads_stencil = false;
@@ -158,6 +165,7 @@ std::uint32_t pack_color_or_index(const ColorLayout& layout, const PaletteSearch
 struct TileCounts {
   std::uint64_t shaded_pixels = 0;
   std::uint64_t hidden_triangles = 0;
+  std::uint64_t non_finite_fragments = 0;  ///< results of fragment stages
   bool touched = false;
 };
 
@@ -190,6 +198,7 @@ class TileWorkspace {
   void allocate_stencil();
   void allocate_samples();
   void allocate_accumulation();
+  void allocate_stage_depth();
 
  private:
   std::unique_ptr<Memory> memory_;

@@ -38,6 +38,9 @@ void TileWorkspace::allocate_samples() {
 void TileWorkspace::allocate_stencil() {
   if (!memory_->stencil) memory_->stencil = std::make_unique<TileStencil>();
 }
+void TileWorkspace::allocate_stage_depth() {
+  if (!memory_->stage_depth) memory_->stage_depth = std::make_unique<TileStageDepth>();
+}
 void TileWorkspace::allocate_accumulation() {
   if (!memory_->accumulation) memory_->accumulation = std::make_unique<TileLevels>();
 }

@@ -8,6 +8,7 @@
 #include "raster/sample_positions.h"
 #include "raster/triangle_setup.h"
 #include "shading/coarse_cells.h"
+#include "shading/fragment_stage.h"
 #include "shading/interpolate.h"
 #include "shading/lighting.h"
 #include "shading/tile_renderer.h"
@@ -22,6 +23,11 @@ inline constexpr std::size_t kVisibleTriangleCapacity = kMaxVisibleTriangles + k
 
 struct alignas(64) TileNormals {
   float component[3][kMaxTileSize * kMaxTileSize];
+};
+
+/// Depth keys of visible fragments whose stage reads depth.
+struct alignas(64) TileStageDepth {
+  std::int32_t key[kMaxTileSize * kMaxTileSize];
 };
 
 struct alignas(64) TileStencil {
@@ -90,16 +96,18 @@ struct alignas(64) TileWorkspace::Memory {
   ShadingBatch batch;
   CellBatch cells;      ///< empty, except while a surface with coarse shading is shaded
   CoarseBlocks coarse;  ///< the same
+  StageArrays stage;    ///< points of `batch`, while a fragment stage runs
   // Per visible triangle, while they are shaded.
   TriangleInterpolants interpolants[kVisibleTriangleCapacity];
   std::int32_t surfaces[kVisibleTriangleCapacity];
   TouchedBlocks touched;
   DrawMeter* meter = nullptr;  ///< used if TileFrame::meter_pass asks for it
   std::vector<TileColors> colors;
-  std::unique_ptr<TileNormals> normals;      ///< for captures
-  std::unique_ptr<TileStencil> stencil;      ///< null if the frame has none
-  std::unique_ptr<TileSamples> samples;      ///< with several samples per pixel
-  std::unique_ptr<TileLevels> accumulation;  ///< for commands of the accumulation buffer
+  std::unique_ptr<TileNormals> normals;         ///< for captures
+  std::unique_ptr<TileStencil> stencil;         ///< null if the frame has none
+  std::unique_ptr<TileStageDepth> stage_depth;  ///< for stages that read depth and run on visible pixels
+  std::unique_ptr<TileSamples> samples;         ///< with several samples per pixel
+  std::unique_ptr<TileLevels> accumulation;     ///< for commands of the accumulation buffer
 
   AccumulatedPixels levels() {
     return {accumulation->component[0], accumulation->component[1], accumulation->component[2],

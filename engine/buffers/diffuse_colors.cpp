@@ -23,7 +23,7 @@ void for_each_piece(int columns, int rows, const Use& use) {
 void show_row(const ImageTarget& image, const ScanOut& scan_out, const std::uint32_t* stored, int y) {
   const PixelRect region = target_region(image);
   if (y < region.y0 || y >= region.y1) return;
-  auto* const row = static_cast<std::uint8_t*>(image.pixels) + y * image.stride_bytes;
+  auto* const row = static_cast<std::uint8_t*>(image.pixels) + y * row_stride(image);
   scan_out.row(stored + region.x0, region.x1 - region.x0, row + std::ptrdiff_t{4} * region.x0);
 }
 

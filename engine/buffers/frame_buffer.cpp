@@ -60,7 +60,7 @@ void require_image(const ImageTarget& target, const FrameBufferFormat& format, c
                     std::to_string(target.height) + " pixels, the frame buffer is " +
                     std::to_string(format.width) + " x " + std::to_string(format.height));
   const std::ptrdiff_t row = std::ptrdiff_t{4} * target.width;
-  const bool rows_overlap = target.stride_bytes < row && target.stride_bytes > -row;
+  const bool rows_overlap = row_stride(target) < row && row_stride(target) > -row;
   if (target.height > 1 && rows_overlap)
     throw Error(ErrorCode::invalid_argument, std::string(function) + ": the target's stride is " +
                                                  std::to_string(target.stride_bytes) +
@@ -393,7 +393,7 @@ void FrameBuffer::read_color(const ImageTarget& target) const {
                [&](std::span<const std::uint32_t> row, std::size_t y) {
                  if (static_cast<int>(y) < region.y0 || static_cast<int>(y) >= region.y1) return;
                  auto* const pixels = static_cast<std::uint8_t*>(target.pixels) +
-                                      static_cast<std::ptrdiff_t>(y) * target.stride_bytes;
+                                      static_cast<std::ptrdiff_t>(y) * row_stride(target);
                  scan_out.row(row.data() + region.x0, region.x1 - region.x0,
                               pixels + 4 * static_cast<std::ptrdiff_t>(region.x0));
                });

@@ -10,6 +10,11 @@ namespace tessera::detail {
 /// @throws Error  if the target does not fit the format
 void check_image_target(const ImageTarget& target, const FrameBufferFormat& format);
 
+/// Bytes from a row to the one below.
+inline std::ptrdiff_t row_stride(const ImageTarget& target) {
+  return target.stride_bytes != 0 ? target.stride_bytes : std::ptrdiff_t{4} * target.width;
+}
+
 /// Pixels of a checked target that are written, in raster space.
 PixelRect target_region(const ImageTarget& target);
 

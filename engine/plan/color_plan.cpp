@@ -78,7 +78,8 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& la
   for (const Light& light : draw.scene_state->lights) plan.lights.push_back(eye_light(light, view));
   // Proofs decide which lights are below the threshold, with and without `elide`: same picture.
   std::optional<ContributionBounds> bounds;
-  if (quality.light_threshold > 0) bounds.emplace(plan, draw, options.sampled, options.isa);
+  const bool has_bounds = quality.light_threshold > 0 && plan.vertex_stage == nullptr;
+  if (has_bounds) bounds.emplace(plan, draw, options.sampled, options.isa);
   if (options.elide || bounds) prove_light_reach(plan, draw, options.isa);
   const TrackedColors tracked =
       draw.mesh.has_colors() ? tracked_colors(draw.state.color_material) : TrackedColors{};
@@ -88,7 +89,8 @@ void plan_lights(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& la
       .scene_ambient = rgb(model.ambient),
       .local_viewer = model.local_viewer,
       .phong_highlight = model.specular == SpecularModel::phong,
-      .unit_normals = renormalizes || (draw.state.normalize && !interpolates_normals),
+      .unit_normals =
+          renormalizes || (draw.state.normalize && !interpolates_normals && !draw.mesh.stage_makes_normals),
       .viewer_is_capped = model.local_viewer != asked_model.local_viewer};
   const auto set_program = [&](LightingProgram& program, const Material& material, int face,
                                const EffectNotes& face_notes) {
@@ -149,8 +151,10 @@ std::optional<Rgb> equal_lit_color(const DrawPlan& plan, const RecordedDraw& dra
   return light_point_reference(program, {.normal = {normal[0][0], normal[1][0], normal[2][0]}});
 }
 
-/// The stored value depends on the value before, or on the position of the pixel, or it includes alpha.
+/// The stored value depends on the value before, or on the position of the pixel, or it includes alpha; or
+/// the fragment stage needs fragments.
 bool prevents_deferral(const DrawPlan& plan, const ColorLayout& layout) {
+  if (plan.fragment_stage && plan.stage_needs_fragments) return true;
   const bool reads_stored = plan.ops.blend || plan.ops.logic != LogicOp::copy;
   const bool stores_alpha = layout.alpha_bits > 0;
   return plan.has_ops && (reads_stored || plan.ops.dither || stores_alpha);
@@ -177,6 +181,10 @@ void plan_alpha(DrawPlan& plan, const RecordedDraw& draw) {
 /// One colour for the draw. Texels are applied at the pixels; a texture of one colour is folded in here.
 void set_constant_color(DrawPlan& plan, const Rgb& color, const ColorLayout& layout) {
   plan.constant_color = {clamp_unit(color[0]), clamp_unit(color[1]), clamp_unit(color[2])};
+  if (plan.fragment_stage) {
+    plan.scaled_colors = false;
+    plan.deferred = !prevents_deferral(plan, layout);
+  }
   if (plan.is_index[0] || plan.texture.use == TexturePlan::Use::none) return;
   if (plan.texture.use == TexturePlan::Use::texels) {
     plan.textures_per_pixel = true;
@@ -205,6 +213,15 @@ void plan_unstored_color(DrawPlan& plan, const RecordedDraw& draw, const EffectN
   if (plan.ops.alpha_test) plan_alpha(plan, draw);
   plan_texturing(plan, false);
   notes.skipped(Effect::shading, EffectReason::no_color_stored);
+}
+
+/// The colour of a draw whose fragment stage replaces colours without reading them.
+void plan_unread_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
+                       const EffectNotes& notes) {
+  plan.two_sided = false;
+  plan.alpha[0] = plan.alpha[1] = clamp_unit(draw.state.material.diffuse.a);
+  set_constant_color(plan, rgb(draw.state.material.diffuse), layout);
+  notes.skipped(Effect::shading, EffectReason::replaced_by_stage);
 }
 
 /// The one colour of a draw, before texturing.
@@ -324,7 +341,8 @@ void plan_interpolated_colors(DrawPlan& plan, const ColorLayout& layout, bool sa
   const bool merely_stored = !plan.has_ops && plan.write_mask == 0xffffffffu;
   const bool modifies_shared_color = sampled && !merely_stored;
   const bool is_carried = plan.textures_per_pixel || plan.unit_colors;
-  const bool shades_visible = !is_linear || is_carried || modifies_shared_color;
+  const bool is_input = plan.fragment_stage.has_value();
+  const bool shades_visible = !is_linear || is_carried || modifies_shared_color || is_input;
   plan.deferred = shades_visible && !prevents_deferral(plan, layout);
   notes.active(Effect::shading,
                plan.deferred ? EffectReason::interpolated_per_pixel : EffectReason::interpolated, cause);
@@ -341,7 +359,7 @@ void note_generated_normals(const DrawPlan& plan, const EffectNotes& notes) {
 
 void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout) {
   const DrawState& state = draw.state;
-  if (plan.write_mask == 0) return;
+  if (!plan.needs_colors()) return;
   plan.two_sided = state.lighting && draw.scene_state->light_model.two_sided && plan.keep_back;
   if (!layout.takes_indices()) return;
   plan.uses_color_indices = !state.lighting && draw.mesh.color_indices;
@@ -351,13 +369,15 @@ void plan_faces(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& lay
 
 void plan_color(DrawPlan& plan, const RecordedDraw& draw, const ColorLayout& layout,
                 const ColorOptions& options, const EffectNotes& notes) {
-  if (plan.write_mask == 0) return plan_unstored_color(plan, draw, notes);
+  if (!plan.needs_colors()) return plan_unstored_color(plan, draw, notes);
+  if (plan.fragment_stage && !plan.fragment_stage->stage.reads.color)
+    return plan_unread_color(plan, draw, layout, notes);
   if (const std::optional<DrawColor> one = plan_color_inputs(plan, draw, layout, options, notes)) {
     notes.add({.effect = Effect::shading, .reason = EffectReason::per_draw, .cause = one->cause});
     return set_constant_color(plan, one->color, layout);
   }
   const Shading shading = draw.state.shading;
-  const bool generates_normals = plan.needs_normal() && !draw.mesh.normals;
+  const bool generates_normals = plan.needs_normal() && !draw.mesh.has_normals();
   plan.face_normals = generates_normals && shading == Shading::flat && plan.topology == Topology::triangles;
   plan.smooth_normals = generates_normals && !plan.face_normals;
   const bool phong = shading == Shading::phong && plan.lit;

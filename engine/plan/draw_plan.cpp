@@ -90,6 +90,41 @@ void plan_elements(DrawPlan& plan, const RecordedDraw& draw) {
       state.shading == Shading::flat && provoking_place(draw.mesh.primitive, state.provoking_vertex) < 0;
 }
 
+/// Takes over the user stages of a draw.
+void plan_stages(DrawPlan& plan, const RecordedDraw& draw) {
+  const DrawState& state = draw.state;
+  if (state.vertex_stage) plan.vertex_stage = &*state.vertex_stage;
+  if (!state.fragment_stage) return;
+  const FragmentStage& stage = *state.fragment_stage;
+  const bool tests_alpha = state.alpha_test && state.alpha_test->func != Compare::always;
+  const bool has_effect_on_tests = stage.discards || stage.writes_depth || tests_alpha;
+  if (plan.write_mask == 0 && !has_effect_on_tests) return;
+  plan.fragment_stage = TileFragmentStage{.stage = stage, .runs_before_tests = has_effect_on_tests};
+}
+
+/// Sets the inputs of the stages, and notes the stages. @pre the layout of the varyings is known
+void finish_stages(DrawPlan& plan, const RecordedDraw& draw, const EffectNotes& notes) {
+  if (plan.vertex_stage != nullptr)
+    notes.add({.effect = Effect::vertex_stage,
+               .reason = EffectReason::each_vertex,
+               .name = plan.vertex_stage->name});
+  if (!draw.state.fragment_stage) return;
+  const std::string_view name = draw.state.fragment_stage->name;
+  EffectNote note{.effect = Effect::fragment_stage, .name = name};
+  if (!plan.fragment_stage) {
+    note.active = false;
+    note.reason = EffectReason::no_color_stored;
+    return notes.add(note);
+  }
+  plan.fragment_stage->eye = plan.varyings.stage_eye;
+  plan.fragment_stage->normal = plan.varyings.stage_normal;
+  plan.fragment_stage->extras = plan.varyings.stage_extras;
+  note.reason = plan.fragment_stage->runs_before_tests ? EffectReason::before_tests
+                : plan.deferred                        ? EffectReason::per_pixel
+                                                       : EffectReason::per_fragment;
+  notes.add(note);
+}
+
 /// Plans the fragment operations and the polygon offset.
 /// @param alpha  alpha of all fragments, if it is known
 void plan_operations(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target,
@@ -106,23 +141,31 @@ void plan_operations(DrawPlan& plan, const RecordedDraw& draw, const FrameBuffer
   }
   if (plan.has_offset()) notes.active(Effect::polygon_offset);
   if (plan.outlines) notes.active(Effect::polygon_mode);
-  plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines;
+  plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines || plan.fragment_stage.has_value();
   const bool has_samples = target.format.samples > 1;
   const bool fills_triangles = plan.topology == Topology::triangles && !plan.outlines && !draw.pixels;
-  const bool only_tests_stencil = fragments.is_stencil_only && !fragments.is_elided && !plan.has_offset();
+  const bool only_tests_stencil =
+      fragments.is_stencil_only && !fragments.is_elided && !plan.has_offset() && !plan.fragment_stage;
   plan.float_colors = plan.has_ops && !(only_tests_stencil && fills_triangles && !has_samples);
   plan.unit_colors = fragments.is_elided && !plan.float_colors;
-  plan.can_defer_dither = fragments.only_dithers && fills_triangles && !has_samples && !plan.has_offset();
+  plan.can_defer_dither =
+      fragments.only_dithers && fills_triangles && !has_samples && !plan.has_offset() && !plan.fragment_stage;
+  if (plan.fragment_stage) {
+    const TileFragmentStage& stage = *plan.fragment_stage;
+    plan.stage_needs_fragments = stage.runs_before_tests || (has_samples && stage.stage.reads.depth);
+  }
   if (has_samples) notes.add({.effect = Effect::multisampling, .samples = target.format.samples});
 }
 
 /// Plans the texture and the colours of a mesh.
 void plan_shading(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target,
                   const PlanOptions& options, const EffectNotes& notes) {
-  const bool stores_colors = plan.write_mask != 0 && !plan.only_indices();
+  const bool stores_colors = plan.needs_colors() && !plan.only_indices();
   const bool blends_or_stores_alpha = stores_colors && (plan.ops.blend || target.layout.alpha_bits > 0);
-  const bool needs_alpha = plan.ops.alpha_test || blends_or_stores_alpha;
-  plan.texture = plan_texture(draw, {.colors = stores_colors, .alpha = needs_alpha}, notes);
+  const bool is_read = plan.fragment_stage && plan.fragment_stage->stage.reads.color;
+  const bool needs_alpha = plan.ops.alpha_test || blends_or_stores_alpha || is_read;
+  if (!plan.fragment_stage || is_read)
+    plan.texture = plan_texture(draw, {.colors = stores_colors, .alpha = needs_alpha}, notes);
   plan.float_colors |= plan.has_ops && plan.texture.use == TexturePlan::Use::texels;
   plan_color(plan, draw, target.layout,
              {.sampled = target.format.samples > 1, .elide = options.elide, .isa = options.isa}, notes);
@@ -134,7 +177,9 @@ bool may_skip_hidden(const DrawPlan& plan, const FrameBufferState& target) {
   const bool keeps_nearer = plan.depth_test == Compare::less || plan.depth_test == Compare::lequal;
   const bool fills_triangles =
       plan.topology == Topology::triangles && !plan.outlines && !plan.pixel_rectangle;
-  return plan.uses_depth && keeps_nearer && fills_triangles && !plan.uses_stencil && !plan.has_offset() &&
+  const bool has_own_depth =
+      plan.has_offset() || (plan.fragment_stage && plan.fragment_stage->stage.writes_depth);
+  return plan.uses_depth && keeps_nearer && fills_triangles && !plan.uses_stencil && !has_own_depth &&
          target.format.samples == 1;
 }
 
@@ -221,13 +266,18 @@ void DrawPlan::reset() {
 }
 
 void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState& target,
-               const PlanOptions& options, const EffectNotes& notes) {
+               const PlanOptions& asked_options, const EffectNotes& notes) {
   const DrawState& state = draw.state;
   plan.reset();
   plan.write_mask = write_mask(state.color_mask, plane_mask(state, target), target.layout);
   plan.touches_color = plan.write_mask != 0;
+  plan_stages(plan, draw);
+  // A stage may change what the data of the mesh prove.
+  PlanOptions options = asked_options;
+  options.elide &= plan.vertex_stage == nullptr;
   std::optional<EqualAlpha> alpha;
-  if (options.elide && (state.alpha_test || state.blend)) alpha = equal_fragment_alpha(draw);
+  const bool alpha_matters = state.alpha_test || state.blend;
+  if (options.elide && alpha_matters && !plan.fragment_stage) alpha = equal_fragment_alpha(draw);
   if (alpha && plan.write_mask != 0 && keeps_stored_colors(state, target, alpha->value)) {
     plan.write_mask = 0;
     notes.skipped(Effect::blending, EffectReason::alpha_is_zero, alpha->cause);
@@ -245,7 +295,7 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
   note_depth(plan, state, target, notes);
   plan_operations(plan, draw, target, alpha, notes);
   plan.is_noop = is_noop_by_state(plan, state);
-  plan.skips_hidden = options.elide && may_skip_hidden(plan, target);
+  plan.skips_hidden = asked_options.elide && may_skip_hidden(plan, target);
   if (options.elide && !plan.is_noop && !draw.pixels && is_outside_view(plan, draw.mesh, options.isa)) {
     plan.is_left_out = true;
     return notes.skipped(Effect::draw, EffectReason::outside_view);
@@ -257,6 +307,7 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
                  plan.textures_per_pixel ? EffectReason::one_color_per_pixel : EffectReason::folded);
   plan.varyings = varying_layout(plan, options.capture_normals);
   if (plan.varyings.texcoord >= 0) plan.texture.texture.attribute = plan.varyings.texcoord;
+  finish_stages(plan, draw, notes);
   if (plan.affine && plan.varyings.count > 0) notes.active(Effect::interpolation, EffectReason::affine);
   const std::string_view cause = cause_of_no_change(plan, draw);
   if (cause.empty()) return;

@@ -96,11 +96,23 @@ struct DrawPlan {
   TexturePlan texture;
   bool textures_per_pixel = false;
 
+  // User stages.
+  const VertexStage* vertex_stage = nullptr;  ///< null: none
+  std::optional<TileFragmentStage> fragment_stage;
+  bool stage_needs_fragments = false;  ///< the fragment stage cannot run on visible pixels alone
+
   VaryingLayout varyings;
 
   // Inputs of lighting, at vertices, triangles or pixels.
   bool needs_normal() const { return lit && (front.needs_normal || (two_sided && back.needs_normal)); }
   bool needs_position() const { return lit && (front.needs_position || (two_sided && back.needs_position)); }
+  /// Colours are stored, or decide which fragments pass.
+  bool needs_colors() const {
+    return write_mask != 0 || (fragment_stage && fragment_stage->runs_before_tests);
+  }
+  /// Vertices carry positions or normals in eye space.
+  bool carries_position() const { return varyings.position >= 0 || varyings.stage_eye >= 0; }
+  bool carries_normal() const { return varyings.normal >= 0 || varyings.stage_normal >= 0; }
   /// The texture's one colour is folded into the colours of vertices, triangles or the draw.
   bool folds_texture() const { return !textures_per_pixel && texture.use != TexturePlan::Use::none; }
   bool has_offset() const { return offset_factor != 0 || offset_units != 0; }

@@ -42,6 +42,8 @@ std::string_view field_of(Effect effect) {
     case Effect::renormalization: return "quality.renormalize";
     case Effect::interpolation: return "quality.interpolation";
     case Effect::texture_filter: return "quality.texture";
+    case Effect::vertex_stage: return "vertex_stage";
+    case Effect::fragment_stage: return "fragment_stage";
   }
   return "";
 }
@@ -72,6 +74,7 @@ std::string_view field_of(const EffectNote& note) {
     case EffectReason::phong_infinite_viewer:
     case EffectReason::phong_local_viewer: return "light_model.specular";
     case EffectReason::equal_normals: return "mesh.normals";
+    case EffectReason::replaced_by_stage: return "fragment_stage";
     case EffectReason::outside_view: return "mesh.positions";
     case EffectReason::never_read: return "clear";
     default: return field_of(note.effect);

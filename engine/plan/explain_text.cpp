@@ -49,6 +49,8 @@ constexpr EffectWords kEffects[] = {
     {Effect::renormalization, "renormalization", "renormalization of normals"},
     {Effect::interpolation, "interpolation", "interpolation"},
     {Effect::texture_filter, "texture_filter", "texture filter"},
+    {Effect::vertex_stage, "vertex_stage", "vertex stage"},
+    {Effect::fragment_stage, "fragment_stage", "fragment stage"},
 };
 
 struct ReasonWords {
@@ -127,6 +129,9 @@ constexpr ReasonWords kReasons[] = {
     {EffectReason::per_4x4_pixels, "per_4x4_pixels", "once per triangle and 4x4 pixels"},
     {EffectReason::below_threshold, "below_threshold", "skipped, it is below the threshold"},
     {EffectReason::per_finished_frame, "per_finished_frame", "once, on the finished frame"},
+    {EffectReason::each_vertex, "each_vertex", "for every vertex"},
+    {EffectReason::before_tests, "before_tests", "for every fragment, before the tests that it decides"},
+    {EffectReason::replaced_by_stage, "replaced_by_stage", "skipped, the fragment stage reads no colour"},
 };
 
 struct BufferWords {
@@ -152,8 +157,8 @@ constexpr bool is_indexed_by(const Words (&words)[size], Key Words::*key) {
 static_assert(is_indexed_by(kEffects, &EffectWords::effect));
 static_assert(is_indexed_by(kReasons, &ReasonWords::reason));
 static_assert(is_indexed_by(kBufferReasons, &BufferWords::reason));
-static_assert(std::size(kEffects) == static_cast<std::size_t>(Effect::texture_filter) + 1);
-static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::per_finished_frame) + 1);
+static_assert(std::size(kEffects) == static_cast<std::size_t>(Effect::fragment_stage) + 1);
+static_assert(std::size(kReasons) == static_cast<std::size_t>(EffectReason::replaced_by_stage) + 1);
 
 const EffectWords& words_of(Effect effect) { return kEffects[static_cast<std::size_t>(effect)]; }
 const ReasonWords& words_of(EffectReason reason) { return kReasons[static_cast<std::size_t>(reason)]; }
@@ -162,7 +167,9 @@ std::string title(const EffectNote& note) {
   std::string text;
   if (note.back_faces) text += "back faces, ";
   if (note.light >= 0) text += "light " + std::to_string(note.light);
-  return text.append(words_of(note.effect).title);
+  text.append(words_of(note.effect).title);
+  if (!note.name.empty()) text.append(" ").append(note.name);
+  return text;
 }
 
 /// Sizes and numbers that precede the reason.

@@ -42,7 +42,7 @@ TexturePlan plan_texture(const RecordedDraw& draw, const TextureNeeds& needs, co
     notes.skipped(Effect::texture, EffectReason::color_and_alpha_unused);
     return plan;
   }
-  if (state.one_color || !draw.mesh.texcoords) {
+  if (state.one_color || !draw.mesh.has_texcoords()) {
     texture.texel = state.one_color ? *state.one_color : filtered.at_origin;
     if (!state.one_color) notes.skipped(Effect::texture_coordinates, EffectReason::not_in_mesh);
     if (changes_nothing(texture, needs)) notes.skipped(Effect::texture, EffectReason::no_effect);

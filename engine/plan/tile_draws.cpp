@@ -105,6 +105,7 @@ TileDraw tile_draw(const GeometryDraw& geometry) {
                           plan.alpha[face]};
   }
   if (plan.has_ops) set_fragment_ops(draw, plan, buffers);
+  if (plan.fragment_stage) draw.stage = &*plan.fragment_stage;
   if (plan.defers_dither) draw.dither = plan.ops.dither;
   set_varyings(draw, plan);
   return draw;

@@ -30,6 +30,12 @@ void add_colors(VaryingLayout& layout, const DrawPlan& plan) {
     if (plan.float_colors && !plan.is_index[face]) layout.alpha[face] = layout.color[face] + 3;
 }
 
+void add_stage_inputs(VaryingLayout& layout, const FragmentValues& reads) {
+  if (reads.eye) layout.stage_eye = layout.position >= 0 ? layout.position : append(layout, 3);
+  if (reads.normal) layout.stage_normal = layout.normal >= 0 ? layout.normal : append(layout, 3);
+  if (reads.extras > 0) layout.stage_extras = append(layout, reads.extras);
+}
+
 }  // namespace
 
 VaryingLayout varying_layout(const DrawPlan& plan, bool capture_normals) {
@@ -40,6 +46,7 @@ VaryingLayout varying_layout(const DrawPlan& plan, bool capture_normals) {
     layout.texcoord = append(layout, 2);
   if (capture_normals && plan.write_mask != 0 && !plan.pixel_rectangle)
     layout.captured_normal = append(layout, 3);
+  if (plan.fragment_stage) add_stage_inputs(layout, plan.fragment_stage->stage.reads);
   return layout;
 }
 

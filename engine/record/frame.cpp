@@ -95,6 +95,40 @@ void check_shape(const DrawState& s, const FrameBufferState& target) {
                 "Frame::draw: a polygon offset is asked for, but the frame buffer has no depth buffer");
 }
 
+/// Checks the user stages against the draw and the frame buffer.
+void check_stages(const RecordedDraw& draw, const FrameBufferState& target) {
+  const DrawState& s = draw.state;
+  const auto fail = [](ErrorCode code, const std::string& text) {
+    throw Error(code, "Frame::draw: " + text);
+  };
+  if (s.shadow_on && (s.vertex_stage || s.fragment_stage))
+    fail(ErrorCode::invalid_argument, "shadow_on and a user stage exclude each other");
+  if (s.vertex_stage) {
+    if (s.vertex_stage->run == nullptr)
+      fail(ErrorCode::invalid_argument, "vertex_stage.run is null, must be a function");
+    if (s.vertex_stage->writes.object)
+      fail(ErrorCode::invalid_argument,
+           "vertex_stage.writes.object is true, but object positions are inputs");
+    require_range({"Frame::draw: vertex_stage.extras"}, s.vertex_stage->extras, 0, kMaxExtras);
+  }
+  if (!s.fragment_stage) return;
+  if (s.fragment_stage->run == nullptr)
+    fail(ErrorCode::invalid_argument, "fragment_stage.run is null, must be a function");
+  const int extras = s.vertex_stage ? s.vertex_stage->extras : 0;
+  if (s.fragment_stage->reads.extras < 0 || s.fragment_stage->reads.extras > extras)
+    fail(ErrorCode::invalid_argument,
+         "fragment_stage.reads.extras is " + std::to_string(s.fragment_stage->reads.extras) +
+             ", must be 0 to the " + std::to_string(extras) + " extras that the vertex stage writes");
+  const bool has_indices = s.lighting ? s.material.index_ramp.has_value() : bool(draw.mesh.color_indices);
+  if (target.layout.takes_indices() && has_indices)
+    fail(ErrorCode::incompatible_format,
+         "a fragment stage works on RGB colours, but the colours of this draw are indices");
+  if ((s.fragment_stage->reads.depth || s.fragment_stage->writes_depth) &&
+      target.depth_format == DepthFormat::none)
+    fail(ErrorCode::incompatible_format,
+         "the fragment stage uses depth, but the frame buffer has no depth buffer");
+}
+
 const TextureState* check_texture(const DrawState& s, const TextureState* state) {
   require_enum({"Frame::draw: texture_env"}, s.texture_env, TextureEnv::add);
   require_finite({"Frame::draw: texture_env_color"}, s.texture_env_color);
@@ -228,6 +262,12 @@ void Frame::draw(const Mesh& mesh, const DrawState& state) {
     draw.texture = check_texture(state, state.texture != nullptr ? state.texture->state_.get() : nullptr);
     draw.state.shading = capped(state.shading, draw.scene_state->quality.shading);
     draw.shading_is_capped = draw.state.shading != state.shading;
+    check_stages(draw, *recording_->target);
+    if (state.vertex_stage) {
+      draw.mesh.stage_makes_normals = state.vertex_stage->writes.normal;
+      draw.mesh.stage_makes_colors = state.vertex_stage->writes.color;
+      draw.mesh.stage_makes_texcoords = state.vertex_stage->writes.texcoord;
+    }
     if (state.shadow_on) apply_planar_shadow(draw);
     check_indices(draw.mesh, recording_->workers);
     recording_->draws.push_back(std::move(draw));

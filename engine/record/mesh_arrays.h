@@ -27,6 +27,8 @@ struct MeshArrays {
   std::size_t color_stride = 0;               ///< bytes between vertices of color_bytes
   StridedFloats color_indices;
   StridedFloats texcoords;
+  /// Attributes that a vertex stage makes.
+  bool stage_makes_normals = false, stage_makes_colors = false, stage_makes_texcoords = false;
 
   // Indices of 32 or 16 bits; both null: vertices in order.
   const std::uint32_t* indices = nullptr;
@@ -35,7 +37,9 @@ struct MeshArrays {
   bool indexed() const { return indices != nullptr || indices16 != nullptr; }
   std::size_t triangles_per_polygon() const { return triangles_of_polygon(primitive, elements); }
   Topology topology() const { return topology_of(primitive); }
-  bool has_colors() const { return colors || color_bytes != nullptr; }
+  bool has_normals() const { return normals || stage_makes_normals; }
+  bool has_colors() const { return colors || color_bytes != nullptr || stage_makes_colors; }
+  bool has_texcoords() const { return texcoords || stage_makes_texcoords; }
   /// Number of the vertex at a corner.
   std::size_t vertex_at(std::size_t corner) const {
     if (indices) return indices[corner];

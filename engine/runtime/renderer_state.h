@@ -32,6 +32,7 @@ struct WorkspaceRequirements {
   bool stencil = false;
   bool accumulation = false;
   bool samples = false;
+  bool stage_depth = false;
   bool operator==(const WorkspaceRequirements&) const = default;
 };
 
@@ -101,7 +102,7 @@ struct RendererState {
   /// Calls work(draw, first, last) for ranges of count(draw) items of each draw, in parallel.
   template <class Count, class Work>
   void run_ranges(FrameContext& frame, const GeometryPass& pass, const Count& count, const Work& work);
-  TileFrame tile_frame(const FrameContext& frame);
+  TileFrame tile_frame(FrameContext& frame);
   void prepare_workspaces(const WorkspaceRequirements& memory);
   void render_parts(FrameContext& frame, const TileStage& stage);
   void index_bin_batches(FrameContext& frame, const TileRange& tiles);

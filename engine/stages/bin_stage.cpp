@@ -46,6 +46,8 @@ BinDraw bin_draw(const GeometryDraw& geometry, std::uint32_t first_tile_draw, in
   draw.transform = &plan.transform;
   draw.positions = geometry.mesh->positions;
   draw.components = geometry.mesh->components;
+  if (plan.vertex_stage != nullptr && plan.vertex_stage->writes.clip)
+    draw.clip_positions = geometry.buffers->staged.clip.data();
   draw.attributes = geometry.buffers->attributes.data();
   draw.attribute_count = draw.attribute_stride = plan.varyings.count;
   return draw;

@@ -40,8 +40,7 @@ void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const 
                             InstructionSet isa) {
   Pass& pass = passes_.emplace_back(Pass{kind, frame, commands.tile_draws, commands.clears, {}});
   pass.ops.reserve(pass.draws.size());  // draws refer to it
-  for (std::size_t i = 0; i < pass.draws.size(); ++i)
-    change_output(pass, pass.draws[i], commands, commands.tile_draw_plan[i]);
+  for (std::size_t i = 0; i < pass.draws.size(); ++i) change_output(pass, pass.draws[i], commands, i);
   for (TileClear& clear : pass.clears) {
     clear.packed_color = Capture::kNothing;
     clear.dithered = false;
@@ -60,11 +59,17 @@ void CaptureStage::add_pass(PassKind kind, const FrameCommands& commands, const 
 }
 
 void CaptureStage::change_output(Pass& pass, TileDraw& draw, const FrameCommands& commands,
-                                 std::size_t plan) const {
+                                 std::size_t tile_draw) const {
+  const std::size_t plan = commands.tile_draw_plan[tile_draw];
   draw.skips_hidden = false;
+  // A stage that decides which fragments pass runs in captures too, on the colours of the frame.
+  const bool keeps_stage = draw.stage != nullptr && draw.stage->runs_before_tests;
+  if (keeps_stage) draw.colors_of = &commands.tile_draws[tile_draw];
+  else draw.stage = nullptr;
   if (pass.kind == PassKind::fragments) {
     draw.uses_depth = false;
     draw.ops = nullptr;
+    draw.stage = nullptr;
   }
   if (draw.ops == nullptr) draw.texture = nullptr;                       // otherwise the alpha test needs it
   if (draw.write_mask == 0 && pass.kind != PassKind::fragments) return;  // changes depth or stencil alone

@@ -48,8 +48,8 @@ class CaptureStage {
   void number_primitives(std::span<const GeometryDraw> draws);
   void add_pass(PassKind kind, const FrameCommands& commands, const TileFrame& frame, InstructionSet isa);
   /// Makes a draw of a pass write the pass's quantity in place of its colours.
-  /// @param plan  number of its plan
-  void change_output(Pass& pass, TileDraw& draw, const FrameCommands& commands, std::size_t plan) const;
+  /// @param tile_draw  its number among the frame's
+  void change_output(Pass& pass, TileDraw& draw, const FrameCommands& commands, std::size_t tile_draw) const;
   std::uint64_t render_pass(const Pass& pass, int row, int column, TileWorkspace& workspace) const;
   void write_ids(std::span<std::uint32_t> to, int x0, int y0, TileWorkspace& workspace) const;
   void write_normals(int x0, int y0, TileWorkspace& workspace) const;

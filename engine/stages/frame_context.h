@@ -8,6 +8,7 @@
 #include "engine/runtime/frame_progress.h"
 #include "engine/runtime/frame_trace.h"
 #include "framebuffer/tile_grid.h"
+#include "shading/fragment_stage.h"
 
 namespace tessera::detail {
 
@@ -44,7 +45,8 @@ struct FrameContext {
   FrameTrace trace;
   FrameProgress progress;
   FrameStats stats;
-  bool bins_filled = false;  ///< the bins of all tiles fit in memory and are filled
+  StageFailure stage_failure;  ///< first exception of a fragment stage
+  bool bins_filled = false;    ///< the bins of all tiles fit in memory and are filled
 };
 
 }  // namespace tessera::detail

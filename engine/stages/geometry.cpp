@@ -11,16 +11,30 @@ namespace {
 
 StridedFloats normals_of(const GeometryDraw& draw) {
   if (draw.plan->face_normals) return {draw.buffers->face_normals.data(), 3};
-  return draw.plan->smooth_normals ? StridedFloats{draw.buffers->smooth_normals.data(), 3}
-                                   : draw.mesh->normals;
+  return draw.needs_smooth_normals() ? StridedFloats{draw.buffers->smooth_normals.data(), 3}
+                                     : draw.mesh->normals;
+}
+/// Normals of vertices for stages and captures, in object space.
+StridedFloats vertex_normals_of(const GeometryDraw& draw) {
+  return draw.mesh->normals ? draw.mesh->normals : StridedFloats{draw.buffers->smooth_normals.data(), 3};
+}
+
+/// Copies rows of three floats, row(i) for point i, to the three fields of the batch from `field` on.
+template <class Row>
+void load_rows(ShadingBatch& batch, int field, std::size_t count, const Row& row) {
+  for (std::size_t i = 0; i < count; ++i)
+    for (int c = 0; c < 3; ++c) batch.field[field + c][i] = row(i)[c];
 }
 
 /// Loads the vertex colours of a batch; vertex(i) is the vertex of point i.
 template <class VertexOf>
-void load_vertex_colors(const MeshArrays& mesh, ShadingBatch& batch, std::size_t count,
+void load_vertex_colors(const GeometryDraw& draw, ShadingBatch& batch, std::size_t count,
                         const VertexOf& vertex) {
+  if (draw.writes().color)
+    return load_rows(batch, kVertexR, count,
+                     [&](std::size_t i) { return draw.buffers->staged.colors.data() + 4 * vertex(i); });
   for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexR + c][i] = mesh.color(vertex(i), c);
+    for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexR + c][i] = draw.mesh->color(vertex(i), c);
 }
 
 /// Marks vertices with a value that is not finite: their primitives are dropped, as for positions.
@@ -166,7 +180,7 @@ Batch batch_of(const GeometryDraw& draw, std::size_t first, std::size_t count, b
                const VertexOf& vertex) {
   Batch points{.first = first, .count = count, .triangles = triangles, .alpha = {}};
   for (std::size_t i = 0; i < count && draw.plan->float_colors && draw.plan->vertex_alpha; ++i)
-    points.alpha[i] = draw.mesh->color(vertex(i), 3);
+    points.alpha[i] = draw.color(vertex(i), 3);
   return points;
 }
 
@@ -188,23 +202,50 @@ void store_lighting_inputs(const GeometryDraw& draw, const ShadingBatch& batch, 
   if (layout.alpha[0] < 0) return;
   float* const alpha = varying(draw, first, layout.alpha[0]);
   for (std::size_t i = 0; i < count; ++i)
-    alpha[i * stride] = draw.mesh->color(first + i, 3);  // clamped at the pixel, like the colour
+    alpha[i * stride] = draw.color(first + i, 3);  // clamped at the pixel, like the colour
+}
+
+/// Stores the inputs of the fragment stage that lighting does not store.
+void store_stage_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std::size_t first,
+                        std::size_t count) {
+  const VaryingLayout& layout = draw.plan->varyings;
+  const std::size_t stride = varying_stride(*draw.plan);
+  const auto store = [&](int offset, int components, const auto& value) {
+    if (offset < 0) return;
+    float* out = varying(draw, first, offset);
+    for (std::size_t i = 0; i < count; ++i, out += stride)
+      for (int c = 0; c < components; ++c) out[c] = value(i, c);
+  };
+  const auto field = [&](int of) {
+    return [&batch, of](std::size_t i, int c) { return batch.field[of + c][i]; };
+  };
+  if (layout.stage_eye != layout.position) store(layout.stage_eye, 3, field(kPositionX));
+  if (layout.stage_normal != layout.normal) store(layout.stage_normal, 3, field(kNormalX));
+  if (layout.stage_extras < 0) return;
+  const auto extras = static_cast<std::size_t>(draw.plan->vertex_stage->extras);
+  const float* const staged = draw.buffers->staged.extras.data() + first * extras;
+  store(layout.stage_extras, draw.plan->fragment_stage->stage.reads.extras,
+        [&](std::size_t i, int c) { return staged[i * extras + static_cast<std::size_t>(c)]; });
 }
 
 void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t count) {
   const std::size_t stride = varying_stride(*draw.plan);
   float* out = varying(draw, first, draw.plan->varyings.texcoord);
-  for (std::size_t i = 0; i < count; ++i, out += stride)
-    std::copy_n(draw.mesh->texcoords.at(first + i), 2, out);
+  for (std::size_t i = 0; i < count; ++i, out += stride) std::copy_n(draw.texcoords().at(first + i), 2, out);
 }
 
 /// Stores eye-space normals for captures, independent of shading.
 void store_captured_normals(const GeometryDraw& draw, std::size_t first, std::size_t count,
                             InstructionSet isa) {
-  const StridedFloats normals =
-      draw.mesh->normals ? draw.mesh->normals : StridedFloats{draw.buffers->smooth_normals.data(), 3};
   float eye[3][kVertexBatch];
-  eye_normals(isa)(draw.plan->captured_eye, normals.from(first), count, eye[0], eye[1], eye[2]);
+  if (draw.writes().normal) {
+    const float* const staged = draw.buffers->staged.normals.data() + 3 * first;
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t c = 0; c < 3; ++c) eye[c][i] = staged[3 * i + c];
+  } else {
+    eye_normals(isa)(draw.plan->captured_eye, vertex_normals_of(draw).from(first), count, eye[0], eye[1],
+                     eye[2]);
+  }
   const std::size_t stride = varying_stride(*draw.plan);
   float* out = varying(draw, first, draw.plan->varyings.captured_normal);
   for (std::size_t i = 0; i < count; ++i, out += stride) {
@@ -272,6 +313,7 @@ void prepare_geometry(const GeometryDraw& draw) {
   const std::size_t triangles_per_polygon = draw.mesh->triangles_per_polygon();
   if (plan.outlines) buffers.boundary.resize(triangles / triangles_per_polygon * (triangles_per_polygon + 2));
   if (plan.face_normals) buffers.face_normals.resize(3 * triangles);
+  if (plan.vertex_stage != nullptr) buffers.staged.resize(*plan.vertex_stage, vertices);
   buffers.any_outcode = false;
 }
 
@@ -281,43 +323,85 @@ void assemble_elements(const GeometryDraw& draw, std::size_t first, std::size_t 
   if (draw.plan->face_normals) make_face_normals(*draw.mesh, first, last, draw.buffers->face_normals.data());
 }
 
-void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t last, InstructionSet isa) {
+namespace {
+
+/// Places vertices in the window, after the vertex stage if there is one, and marks those that are not
+/// finite.
+/// @return  bitwise or of the outcodes
+std::uint8_t place(const GeometryDraw& draw, StridedFloats normals, std::size_t at, std::size_t count,
+                   InstructionSet isa) {
   const MeshArrays& mesh = *draw.mesh;
   const DrawPlan& plan = *draw.plan;
+  std::uint8_t* const outcodes = draw.buffers->outcodes.data() + at;
+  const VertexValues writes = draw.writes();
+  std::uint8_t any = 0;
+  if (!writes.clip)
+    any |= transform_vertices(isa)(plan.transform, mesh.positions.from(at), mesh.components, count,
+                                   draw.buffers->vertices.data() + at, outcodes);
+  if (plan.vertex_stage != nullptr) {
+    const bool has_vertex_normals = draw.mesh->normals || draw.needs_smooth_normals();
+    any |= run_vertex_stage(draw, has_vertex_normals ? vertex_normals_of(draw) : StridedFloats{}, at, count,
+                            isa);
+  }
+  if (plan.uses_vertex_colors && mesh.colors && !writes.color)
+    any |= mark_non_finite(mesh.colors.from(at), 4, count, outcodes);
+  if (plan.uses_color_indices) any |= mark_non_finite(mesh.color_indices.from(at), 1, count, outcodes);
+  if (plan.varyings.texcoord >= 0 && !writes.texcoord)
+    any |= mark_non_finite(mesh.texcoords.from(at), 2, count, outcodes);
+  const bool uses_normals = plan.needs_normal() || plan.varyings.stage_normal >= 0;
+  if (uses_normals && !plan.face_normals && !writes.normal && normals)
+    any |= mark_non_finite(normals.from(at), 3, count, outcodes);
+  return any;
+}
+
+/// Loads normals and positions of vertices in eye space.
+void load_eye_space(const GeometryDraw& draw, StridedFloats normals, std::size_t at, std::size_t count,
+                    ShadingBatch& batch, InstructionSet isa) {
+  const DrawPlan& plan = *draw.plan;
+  const StagedVertices& staged = draw.buffers->staged;
+  const VertexValues writes = draw.writes();
+  if (plan.needs_normal() || plan.varyings.stage_normal >= 0) {
+    if (writes.normal)
+      load_rows(batch, kNormalX, count, [&](std::size_t i) { return staged.normals.data() + 3 * (at + i); });
+    else
+      eye_normals(isa)(plan.eye, normals.from(at), count, batch.field[kNormalX], batch.field[kNormalY],
+                       batch.field[kNormalZ]);
+  }
+  if (plan.needs_position() || plan.varyings.stage_eye >= 0) {
+    if (writes.eye)
+      load_rows(batch, kPositionX, count, [&](std::size_t i) { return staged.eye.data() + 3 * (at + i); });
+    else
+      eye_positions(isa)(plan.eye, draw.mesh->positions.from(at), draw.mesh->components, count,
+                         batch.field[kPositionX], batch.field[kPositionY], batch.field[kPositionZ]);
+  }
+}
+
+}  // namespace
+
+void process_vertices(const GeometryDraw& draw, std::size_t first, std::size_t last, InstructionSet isa) {
+  const DrawPlan& plan = *draw.plan;
   DrawBuffers& buffers = *draw.buffers;
-  TransformVertices* const transform = transform_vertices(isa);
   const bool colors_matter = plan.source == ColorSource::per_vertex_packed ||
                              plan.source == ColorSource::interpolated ||
                              plan.source == ColorSource::per_pixel;
-  const StridedFloats normals = normals_of(draw);
+  const bool has_stage_inputs = plan.fragment_stage.has_value();
+  // Flat faces are lit with face normals, and stages get normals of vertices.
+  const StridedFloats normals =
+      plan.face_normals && draw.needs_smooth_normals() ? vertex_normals_of(draw) : normals_of(draw);
   ShadingBatch batch;
   clear_batch(batch);
   std::uint8_t outcodes = 0;
   for (std::size_t at = first; at < last; at += kVertexBatch) {
     const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
-    const StridedFloats positions = mesh.positions.from(at);
-    outcodes |= transform(plan.transform, positions, mesh.components, count, buffers.vertices.data() + at,
-                          buffers.outcodes.data() + at);
-    if (plan.uses_vertex_colors && mesh.colors)
-      outcodes |= mark_non_finite(mesh.colors.from(at), 4, count, buffers.outcodes.data() + at);
-    if (plan.uses_color_indices)
-      outcodes |= mark_non_finite(mesh.color_indices.from(at), 1, count, buffers.outcodes.data() + at);
-    if (plan.varyings.texcoord >= 0) {
-      outcodes |= mark_non_finite(mesh.texcoords.from(at), 2, count, buffers.outcodes.data() + at);
-      store_texcoords(draw, at, count);
-    }
+    outcodes |= place(draw, normals, at, count, isa);
+    if (plan.varyings.texcoord >= 0) store_texcoords(draw, at, count);
     if (plan.varyings.captured_normal >= 0) store_captured_normals(draw, at, count, isa);
-    if (plan.needs_normal() && !plan.face_normals)
-      outcodes |= mark_non_finite(normals.from(at), 3, count, buffers.outcodes.data() + at);
-    if (!colors_matter || plan.has_per_triangle_colors()) continue;
-    if (plan.needs_normal())
-      eye_normals(isa)(plan.eye, normals.from(at), count, batch.field[kNormalX], batch.field[kNormalY],
-                       batch.field[kNormalZ]);
-    if (plan.needs_position())
-      eye_positions(isa)(plan.eye, positions, mesh.components, count, batch.field[kPositionX],
-                         batch.field[kPositionY], batch.field[kPositionZ]);
+    const bool shades = colors_matter && !plan.has_per_triangle_colors();
+    if (shades || has_stage_inputs) load_eye_space(draw, normals, at, count, batch, isa);
+    if (has_stage_inputs) store_stage_inputs(draw, batch, at, count);
+    if (!shades) continue;
     if (plan.uses_vertex_colors)
-      load_vertex_colors(mesh, batch, count, [at](std::size_t i) { return at + i; });
+      load_vertex_colors(draw, batch, count, [at](std::size_t i) { return at + i; });
     if (plan.uses_color_indices)
       load_color_indices(draw, batch, count, [at](std::size_t i) { return at + i; });
     if (plan.source == ColorSource::per_pixel) store_lighting_inputs(draw, batch, at, count);
@@ -336,10 +420,14 @@ void compute_flat_colors(const GeometryDraw& draw, std::size_t first, std::size_
   };
   ShadingBatch batch;
   clear_batch(batch);
+  const VertexValues writes = draw.writes();
   float positions[4 * kVertexBatch], normals[3 * kVertexBatch];
   for (std::size_t at = first; at < last; at += kVertexBatch) {
     const std::size_t count = std::min<std::size_t>(kVertexBatch, last - at);
-    if (plan.needs_normal()) {
+    if (plan.needs_normal() && writes.normal) {
+      load_rows(batch, kNormalX, count,
+                [&](std::size_t i) { return draw.buffers->staged.normals.data() + 3 * vertex_of(at + i); });
+    } else if (plan.needs_normal()) {
       for (std::size_t i = 0; i < count && !plan.face_normals; ++i)
         std::copy_n(mesh.normals.at(vertex_of(at + i)), 3, normals + 3 * i);
       const StridedFloats of_triangles =
@@ -347,14 +435,17 @@ void compute_flat_colors(const GeometryDraw& draw, std::size_t first, std::size_
       eye_normals(isa)(plan.eye, of_triangles, count, batch.field[kNormalX], batch.field[kNormalY],
                        batch.field[kNormalZ]);
     }
-    if (plan.needs_position()) {
+    if (plan.needs_position() && writes.eye) {
+      load_rows(batch, kPositionX, count,
+                [&](std::size_t i) { return draw.buffers->staged.eye.data() + 3 * vertex_of(at + i); });
+    } else if (plan.needs_position()) {
       for (std::size_t i = 0; i < count; ++i)
         std::copy_n(mesh.positions.at(vertex_of(at + i)), components, positions + i * components);
       eye_positions(isa)(plan.eye, {positions, components}, mesh.components, count, batch.field[kPositionX],
                          batch.field[kPositionY], batch.field[kPositionZ]);
     }
     if (plan.uses_vertex_colors)
-      load_vertex_colors(mesh, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
+      load_vertex_colors(draw, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
     if (plan.uses_color_indices)
       load_color_indices(draw, batch, count, [&](std::size_t i) { return vertex_of(at + i); });
     shade_batch(draw, batch,

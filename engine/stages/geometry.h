@@ -7,6 +7,7 @@
 
 #include "engine/plan/draw_plan.h"
 #include "engine/stages/scratch.h"
+#include "engine/stages/vertex_stage.h"
 #include "framebuffer/palette_search.h"
 #include "raster/polygon_facing.h"
 
@@ -26,6 +27,7 @@ struct DrawBuffers {
   PolygonModes modes;                       ///< if polygons are outlined
   Scratch<float> smooth_normals;            ///< generated, per vertex: for lighting or captures
   Scratch<float> face_normals;              ///< generated, per triangle
+  StagedVertices staged;                    ///< results of the vertex stage
   std::atomic<bool> any_outcode = false;    ///< a vertex has an outcode
 };
 
@@ -60,7 +62,25 @@ struct GeometryDraw {
   /// The draw needs assemble_elements().
   bool assembles() const { return generates_indices() || plan->outlines || plan->face_normals; }
   bool needs_smooth_normals() const {
-    return plan->smooth_normals || (plan->varyings.captured_normal >= 0 && !mesh->normals);
+    const bool is_captured = plan->varyings.captured_normal >= 0 && !writes().normal;
+    const bool is_input = reads_normals_outside_lighting();
+    return plan->smooth_normals || (!mesh->normals && (is_captured || is_input));
+  }
+  /// Values that the vertex stage writes.
+  VertexValues writes() const {
+    return plan->vertex_stage != nullptr ? plan->vertex_stage->writes : VertexValues{};
+  }
+  /// A stage reads normals of the mesh, or generated ones.
+  bool reads_normals_outside_lighting() const {
+    const bool is_read = plan->vertex_stage != nullptr && plan->vertex_stage->reads.normal;
+    return is_read || (plan->varyings.stage_normal >= 0 && !writes().normal);
+  }
+  /// Component c of a vertex's colour.
+  float color(std::size_t vertex, std::size_t c) const {
+    return writes().color ? buffers->staged.colors.data()[4 * vertex + c] : mesh->color(vertex, c);
+  }
+  StridedFloats texcoords() const {
+    return writes().texcoord ? StridedFloats{buffers->staged.texcoords.data(), 2} : mesh->texcoords;
   }
   /// The triangles of a polygon share a facing: polygons have several triangles, or are outlined.
   bool has_polygon_facing() const { return plan->outlines || mesh->triangles_per_polygon() > 1; }

@@ -28,6 +28,11 @@ Rect strip_rect(const TileStrip& strip, const TileGrid& grid) {
   return {x0, grid.height_px - y1, x1 - x0, y1 - y0};
 }
 
+/// Whether tiles keep the depths of a draw's visible fragments for its stage.
+bool keeps_stage_depth(const DrawPlan* plan) {
+  return plan->fragment_stage && plan->deferred && plan->fragment_stage->stage.reads.depth;
+}
+
 /// Halves the rows, or the columns of a single row.
 /// @pre several tiles
 std::array<TileRange, 2> split_range(const TileRange& tiles) {
@@ -39,8 +44,9 @@ std::array<TileRange, 2> split_range(const TileRange& tiles) {
 
 }  // namespace
 
-TileFrame RendererState::tile_frame(const FrameContext& frame) {
+TileFrame RendererState::tile_frame(FrameContext& frame) {
   TileFrame tiles;
+  tiles.stage_failure = &frame.stage_failure;
   tiles.grid = frame.grid;
   tiles.layout = frame.target.layout;
   for (const DrawPlan* plan : commands.plans)
@@ -77,6 +83,7 @@ void RendererState::prepare_workspaces(const WorkspaceRequirements& memory) {
     if (memory.stencil) workspace.allocate_stencil();
     if (memory.accumulation) workspace.allocate_accumulation();
     if (memory.samples) workspace.allocate_samples();
+    if (memory.stage_depth) workspace.allocate_stage_depth();
   }
   prepared_requirements = memory;
 }
@@ -89,11 +96,13 @@ void RendererState::run_tiles(FrameContext& frame) {
   // Colours that error diffusion reduces are shown after the last tile.
   const ImageTarget* const image = frame.target.diffusion ? nullptr : frame.image;
   const TileStage stage(commands, tiles, frame.target, image, capture, scan_out_cache, isa);
-  prepare_workspaces({.colors = stage.buffered_tiles(),
-                      .normals = capture.needs_normals(),
-                      .stencil = commands.attachments.stencil.used(),
-                      .accumulation = commands.attachments.accumulation.used(),
-                      .samples = tiles.samples > 1});
+  prepare_workspaces(
+      {.colors = stage.buffered_tiles(),
+       .normals = capture.needs_normals(),
+       .stencil = commands.attachments.stencil.used(),
+       .accumulation = commands.attachments.accumulation.used(),
+       .samples = tiles.samples > 1,
+       .stage_depth = std::any_of(commands.plans.begin(), commands.plans.end(), keeps_stage_depth)});
   for (std::size_t w = 0; w < measured_workers(); ++w)
     workspaces[w].set_meter(draw_measurer.tile_meter(static_cast<int>(w)));
   try {
@@ -157,10 +166,12 @@ void RendererState::render_tiles(FrameContext& frame, const TileStage& stage, co
     frame.progress.task(worker, strip_rect(strips[i], frame.grid), [&] {
       stage.render(strips[i], workspaces[static_cast<std::size_t>(worker)],
                    worker_counts[static_cast<std::size_t>(worker)]);
+      if (frame.stage_failure.any()) frame.stage_failure.rethrow();
     });
   });
   for (const WorkerCounts& counts : worker_counts) {
     frame.stats.shaded_pixels += counts.shaded_pixels;
+    frame.stats.non_finite_fragments += counts.non_finite_fragments;
     frame.stats.hidden_triangles += counts.hidden_triangles;
     frame.stats.tiles_rendered += counts.rendered;
     frame.stats.tiles_touched += counts.touched;

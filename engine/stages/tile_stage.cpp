@@ -165,6 +165,7 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   const TileCounts tile = render_(frame_, row * grid.columns() + column, workspace);
   ++counts.rendered;
   counts.shaded_pixels += tile.shaded_pixels;
+  counts.non_finite_fragments += tile.non_finite_fragments;
   counts.hidden_triangles += tile.hidden_triangles;
   counts.touched += tile.touched ? 1 : 0;
   if (shown) scan_out(x0, y0, workspace);
@@ -184,7 +185,7 @@ void TileStage::scan_out(int x0, int y0, TileWorkspace& workspace) const {
   const int width = in_frame.x1 - x0, height = in_frame.y1 - y0;
   if (region == in_frame) {
     scan_out_cache_.scan_out->tile(workspace.color(), size, width, height, target_pixel(x0, y0),
-                                   image_->stride_bytes);
+                                   row_stride(*image_));
     return;
   }
   // The edge of the region crosses the tile: convert the whole tile, then copy the part inside.
@@ -231,7 +232,7 @@ void TileStage::fill_cleared(const TileStrip& strip) const {
 }
 
 std::uint8_t* TileStage::target_pixel(int x, int y) const {
-  return static_cast<std::uint8_t*>(image_->pixels) + y * image_->stride_bytes + std::ptrdiff_t{4} * x;
+  return static_cast<std::uint8_t*>(image_->pixels) + y * row_stride(*image_) + std::ptrdiff_t{4} * x;
 }
 
 }  // namespace tessera::detail

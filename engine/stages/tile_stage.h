@@ -39,6 +39,7 @@ struct StripCounts {
   std::uint64_t shaded_pixels = 0;     ///< colour evaluations
   std::uint64_t hidden_triangles = 0;  ///< sum over tiles of triangles that were left out as hidden
   std::uint64_t fragments = 0;         ///< pixels
+  std::uint64_t non_finite_fragments = 0;
 };
 
 /// Scan-out tables, kept from frame to frame.

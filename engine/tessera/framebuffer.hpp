@@ -70,7 +70,7 @@ struct PlaneView {
 struct ImageTarget {
   void* pixels = nullptr;           ///< the top row
   int width = 0, height = 0;        ///< pixels; must equal the frame buffer's
-  std::ptrdiff_t stride_bytes = 0;  ///< from a row to the one below: at least 4 * width; may be negative
+  std::ptrdiff_t stride_bytes = 0;  ///< from a row to the one below; 0: 4 * width; may be negative
   PixelOrder order = PixelOrder::rgba8;
   std::optional<Rect> region{};  ///< only these pixels are written; clipped to the picture; absent: all
 };

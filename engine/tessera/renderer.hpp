@@ -41,6 +41,8 @@ struct FrameStats {
   int tile_size = 0;                 ///< pixels
   std::uint64_t fragments = 0;       ///< pixels covered before any test; with DebugOptions::count_fragments
   std::uint64_t shaded_pixels = 0;   ///< colour evaluations
+  /// Fragments for which a FragmentStage gave a colour or a depth that is not finite.
+  std::uint64_t non_finite_fragments = 0;
   /// Bin entries of triangles behind everything in their tile, which were left out before their setup. Found
   /// in groups: the number depends on the tile size and on bin_memory.
   std::uint64_t hidden_triangles = 0;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <tessera/enums.hpp>
+#include <tessera/stages.hpp>
 
 #include "primitives.hpp"
 #include "scene.hpp"
@@ -120,6 +121,10 @@ struct DrawState {
   std::optional<Rect> viewport{};          ///< 1 to kMaxFrameBufferSize pixels per side; absent: whole buffer
   std::optional<Rect> scissor{};           ///< absent: whole buffer
   std::optional<ShadowOn> shadow_on{};     ///< absent: the mesh itself is drawn
+  /// Functions of yours that run on the vertices and the fragments of the draw; absent: none. Not together
+  /// with shadow_on. A fragment stage needs RGB colours: no colour indices and no index lighting.
+  std::optional<VertexStage> vertex_stage{};
+  std::optional<FragmentStage> fragment_stage{};
 };
 
 /// The part of a DrawState that bitmaps and images go through. They are front faces to the stencil test.

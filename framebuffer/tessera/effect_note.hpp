@@ -42,7 +42,9 @@ enum class Effect : std::uint8_t {
   light_tracked_colors,  ///< vertex colours in place of the material's diffuse or specular colour
   renormalization,       ///< Quality::renormalize
   interpolation,         ///< Quality::interpolation
-  texture_filter         ///< Quality::texture
+  texture_filter,        ///< Quality::texture
+  vertex_stage,          ///< DrawState::vertex_stage
+  fragment_stage         ///< DrawState::fragment_stage
 };
 
 /// Why an effect runs or is skipped, or which variant of it runs. New enumerators are appended.
@@ -106,7 +108,10 @@ enum class EffectReason : std::uint8_t {
   per_2x2_pixels,             ///< evaluated once per triangle and 2x2 pixels
   per_4x4_pixels,             ///< evaluated once per triangle and 4x4 pixels
   below_threshold,            ///< the light's contribution is below Quality::light_threshold
-  per_finished_frame          ///< applied once, to the finished frame
+  per_finished_frame,         ///< applied once, to the finished frame
+  each_vertex,                ///< runs on every vertex
+  before_tests,               ///< runs on every fragment, before the tests that it decides
+  replaced_by_stage           ///< the fragment stage does not read colours
 };
 
 /// One effect of a draw. Frame::effects returns them, Frame::explain their text.
@@ -123,6 +128,7 @@ struct EffectNote {
   /// The field that decides, where effect and reason do not determine it. That of a light begins with a dot;
   /// EffectExplanation::cause is complete.
   std::string_view cause{};
+  std::string_view name{};  ///< stages: VertexStage::name or FragmentStage::name
 
   bool operator==(const EffectNote&) const = default;
 };

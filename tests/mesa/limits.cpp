@@ -67,6 +67,7 @@ bool meets_a_clear(double depth, const std::vector<double>& cleared) {
 
 Reason draw_limit(const Draw& draw, const reference::Scene& scene, const FrameState& frame) {
   const FrameBufferFormat& format = scene.framebuffer;
+  if (!draw.stages.empty()) return "a user stage";
   if (draw.lighting && frame.lights.size() > kMaxProgramLights) return "more lights than the programs take";
   if (draw.viewport && (draw.viewport->width > kLargestViewport || draw.viewport->height > kLargestViewport))
     return "a viewport beyond Mesa's";

@@ -216,6 +216,37 @@ void add_objects(Json& scene, Dice& dice, const SizeClass& sizes, bool is_rgb) {
   }
 }
 
+Json random_stages(Dice& dice, bool has_samples) {
+  Json stages = Json::array();
+  for (int n = dice.between(0, 3); n > 0; --n) {
+    switch (dice.between(0, 6)) {
+      case 0: stages.push_back({{"name", "gradient_object_y"}}); break;
+      case 1:
+        stages.push_back({{"name", "gradient_screen_y"},
+                          {"colors", {dice.color(0, 1000), dice.color(0, 1000, 0.5), dice.color(0, 1000)}}});
+        break;
+      case 2: stages.push_back({{"name", "uncover"}, {"amount", dice.thousandths(200, 1000)}}); break;
+      case 3: stages.push_back({{"name", "reverse_z"}, {"space", "clip"}}); break;
+      case 4:
+        // With several samples the depth of sample 0 replaces those of all samples.
+        if (!has_samples) stages.push_back({{"name", "reverse_z"}, {"space", "window"}});
+        break;
+      case 5: stages.push_back({{"name", "zoom"}, {"factor", dice.thousandths(400, 2500)}}); break;
+      default:
+        stages.push_back({{"name", "falloff"},
+                          {"from", dice.vector(2000)},
+                          {"exponent", dice.one_of({0.0, 0.5, 1.0, 1.5, 2.0})}});
+    }
+  }
+  return stages;
+}
+
+/// At most two stages that need three extra varyings each.
+bool fits_extras(const Json& stages) {
+  return std::count_if(stages.begin(), stages.end(),
+                       [](const Json& stage) { return stage["name"] == "falloff"; }) <= 2;
+}
+
 }  // namespace
 
 std::string random_scene(std::uint64_t seed) {
@@ -234,6 +265,22 @@ std::string random_scene(std::uint64_t seed) {
   scene["textures"]["t"] = random_texture(dice);
   scene["frame"] = Json::array({{{"clear", {{"color", dice.color(0, 500)}, {"depth", 1}, {"stencil", 0}}}}});
   add_objects(scene, dice, kSizeClasses[seed % 3], is_rgb);
+  return scene.dump(1) + "\n";
+}
+
+std::string random_scene_with_stages(std::uint64_t seed) {
+  Json scene = Json::parse(random_scene(seed));
+  Dice dice(seed + 1000000);
+  scene["framebuffer"]["width"] = 200;
+  scene["framebuffer"]["height"] = 150;
+  const bool has_samples = scene["framebuffer"].contains("samples");
+  for (auto& [name, mesh] : scene["meshes"].items()) mesh["detail"] = std::min(mesh["detail"].get<int>(), 6);
+  for (Json& command : scene["frame"]) {
+    if (!command.contains("draw")) continue;
+    const Json stages = random_stages(dice, has_samples);
+    if (fits_extras(stages)) command["stages"] = stages;
+    if (command.contains("scissor")) command["scissor"] = {20, 15, 120, 100};
+  }
   return scene.dump(1) + "\n";
 }
 

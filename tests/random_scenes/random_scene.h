@@ -13,4 +13,8 @@ namespace tessera::test {
 /// Numbers are multiples of 1/1000, drawn from integers, so no host's arithmetic enters.
 std::string random_scene(std::uint64_t seed);
 
+/// A small variant of random_scene(), 200 x 150 pixels with meshes of at most detail 6, whose draws carry
+/// user stages that move, recolour and discard, and write depth.
+std::string random_scene_with_stages(std::uint64_t seed);
+
 }  // namespace tessera::test

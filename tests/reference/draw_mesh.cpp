@@ -1,6 +1,7 @@
 #include "draw_mesh.h"
 
 #include "fragment_pipeline.h"
+#include "named_stages.h"
 #include "planar_shadow.h"
 #include "primitive_shader.h"
 #include "rasterize_mesh.h"
@@ -27,7 +28,10 @@ Draw shadow_of(const Draw& draw, const std::vector<Light>& lights) {
 }  // namespace
 
 void draw_mesh(const Draw& draw, const FrameState& state, SampleBuffers& buffers) {
-  const Draw drawn = draw.shadow_on ? shadow_of(draw, state.lights) : draw;
+  Draw drawn = draw.shadow_on ? shadow_of(draw, state.lights) : draw;
+  const bool has_stage_colors = makes_vertex_colors(draw);
+  if (has_stage_colors && draw.lighting && draw.color_material == ColorMaterial::kNone)
+    drawn.color_material = ColorMaterial::kAmbientAndDiffuse;
   const Mesh& mesh = state.scene.meshes.at(draw.mesh);
   const std::optional<TextureSampler> texture = sampler(drawn, state.scene);
   const DrawColors colors{drawn,
@@ -35,7 +39,7 @@ void draw_mesh(const Draw& draw, const FrameState& state, SampleBuffers& buffers
                           lights_in_eye_space(state.lights, state.camera.view_from_world),
                           buffers.format(),
                           texture ? &*texture : nullptr,
-                          !draw.shadow_on && !mesh.colors.empty(),
+                          !draw.shadow_on && (!mesh.colors.empty() || has_stage_colors),
                           !draw.shadow_on && !mesh.color_indices.empty()};
   // Shader and pipeline of the current primitive.
   std::optional<PrimitiveShader> shader;
@@ -47,7 +51,9 @@ void draw_mesh(const Draw& draw, const FrameState& state, SampleBuffers& buffers
         FragmentPipeline::Source{state.command, static_cast<std::int32_t>(primitive.number),
                                  primitive.is_back},
         buffers);
-    return [&pipeline](const Fragment& fragment) { pipeline->take(fragment); };
+    return [&](const Fragment& fragment) {
+      if (const auto staged = staged_fragment(drawn, buffers.format(), fragment)) pipeline->take(*staged);
+    };
   };
   rasterize_mesh(mesh, drawn, state.camera, buffers.format(), start, state.sample_shift);
 }

@@ -47,8 +47,41 @@ Material find_material(const Value& v, const Scene& scene) {
   return found->second;
 }
 
-// Keys of the format whose features the reference renderers do not support.
-void refuse_other_features(ObjectReader& reader) { reader.only_default("stages", Json::array()); }
+std::vector<Vec4> parse_gradient(ObjectReader& reader) {
+  const Value v = reader.find("colors");
+  if (!v) return {{1, 0, 0, 1}, {1, 1, 0, 1}, {0, 1, 0, 1}, {0, 1, 1, 1}, {0, 0, 1, 1}};
+  std::vector<Vec4> colors;
+  for (std::size_t i = 0; i < array_size(v); ++i) colors.push_back(vec4(v[i]));
+  if (colors.size() < 2) fail(v.pointer, "two colours or more");
+  return colors;
+}
+
+Stage parse_stage(const Value& v) {
+  enum class Name { kObjectY, kScreenY, kUncover, kReverseZ, kZoom, kFalloff };
+  using Kind = Stage::Kind;
+  ObjectReader reader(v);
+  Stage stage;
+  switch (choice<Name>(reader.require("name"), {{"gradient_object_y", Name::kObjectY},
+                                                {"gradient_screen_y", Name::kScreenY},
+                                                {"uncover", Name::kUncover},
+                                                {"reverse_z", Name::kReverseZ},
+                                                {"zoom", Name::kZoom},
+                                                {"falloff", Name::kFalloff}})) {
+    case Name::kObjectY: stage = {Kind::kGradientObjectY, 0, {}, parse_gradient(reader)}; break;
+    case Name::kScreenY: stage = {Kind::kGradientScreenY, 0, {}, parse_gradient(reader)}; break;
+    case Name::kUncover: stage = {Kind::kUncover, number(reader.require("amount")), {}, {}}; break;
+    case Name::kReverseZ:
+      stage.kind = choice<Kind>(reader.require("space"),
+                                {{"clip", Kind::kReverseClipZ}, {"window", Kind::kReverseWindowZ}});
+      break;
+    case Name::kZoom: stage = {Kind::kZoom, number(reader.require("factor")), {}, {}}; break;
+    case Name::kFalloff:
+      stage = {Kind::kFalloff, number(reader.require("exponent")), vec3(reader.require("from")), {}};
+      break;
+  }
+  reader.finish();
+  return stage;
+}
 
 void parse_texturing(ObjectReader& reader, const Scene& scene, Draw& draw) {
   if (const Value name = reader.find("texture")) {
@@ -152,7 +185,8 @@ Draw parse_draw(const Value& v, const Scene& scene, const std::vector<Light>& li
   if (const Value depth = reader.find("depth"); depth && depth.json->is_number())
     fail(depth.pointer, "a depth test or false");
   parse_window_depths(reader, scene.framebuffer, draw);
-  refuse_other_features(reader);
+  if (const Value stages = reader.find("stages"))
+    for (std::size_t i = 0; i < array_size(stages); ++i) draw.stages.push_back(parse_stage(stages[i]));
   reader.finish();
   return draw;
 }

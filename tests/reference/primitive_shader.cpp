@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "named_stages.h"
 #include "pixel_format.h"
 #include "texture_env.h"
 
@@ -80,6 +81,14 @@ PrimitiveShader::PrimitiveShader(const Corners& corners, bool is_back, const Dra
 }
 
 Shade PrimitiveShader::shade(const Fragment& fragment) const {
+  const Shade shade = unstaged(fragment);
+  if (colors_.draw.stages.empty() || shade.index) return shade;
+  const Vec3 world =
+      mix_within(fragment.weights, [&](std::size_t i) { return corners_.all[i].position_world; });
+  return staged_color(colors_.draw, colors_.format, fragment, world, shade);
+}
+
+Shade PrimitiveShader::unstaged(const Fragment& fragment) const {
   const CornerWeights& weights = fragment.weights;
   if (is_lit_at_pixels(colors_.draw)) {
     const auto mixed = [&](auto member) {

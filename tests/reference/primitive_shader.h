@@ -43,6 +43,7 @@ class PrimitiveShader {
   Vec4 color(const SurfacePoint& point) const;
   double index(const SurfacePoint& point) const;
   Vec4 textured(Vec4 color, const Fragment& fragment) const;
+  Shade unstaged(const Fragment& fragment) const;
 
   const Corners& corners_;
   const DrawColors& colors_;

@@ -201,6 +201,23 @@ struct ShadowOn {
   Vec4 color{0, 0, 0, 1};
 };
 
+/// A named user stage of a draw.
+struct Stage {
+  enum class Kind : std::uint8_t {
+    kGradientObjectY,
+    kGradientScreenY,
+    kUncover,
+    kReverseClipZ,
+    kReverseWindowZ,
+    kZoom,
+    kFalloff
+  };
+  Kind kind = Kind::kZoom;
+  double value = 0;          ///< amount, factor or exponent
+  Vec3 from;                 ///< kFalloff: world space
+  std::vector<Vec4> colors;  ///< gradients: at least two
+};
+
 struct Draw : FragmentState {
   std::size_t mesh = 0;    ///< index into Scene::meshes
   Material material;       ///< front faces; also back faces unless lighting is two-sided
@@ -226,6 +243,7 @@ struct Draw : FragmentState {
   Vec4 texture_env_color{0, 0, 0, 0};
   std::optional<ShadowOn> shadow_on;  ///< none: draws the object itself
   std::optional<Rect> viewport;       ///< none: the whole buffer
+  std::vector<Stage> stages;          ///< run in order
 };
 
 /// A bitmap at a window position: each set bit is a pixel of one colour, with its lower left corner at

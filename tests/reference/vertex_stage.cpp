@@ -1,6 +1,7 @@
 #include "vertex_stage.h"
 
 #include "generated_normals.h"
+#include "named_stages.h"
 
 namespace tessera::reference {
 namespace {
@@ -56,6 +57,9 @@ Corners VertexStage::corners(std::size_t index) const {
     if (!mesh_.colors.empty()) corner.color = mesh_.colors[vertex];
     if (!mesh_.texcoords.empty()) corner.texcoord = {mesh_.texcoords[vertex][0], mesh_.texcoords[vertex][1]};
     if (!mesh_.color_indices.empty()) corner.index = mesh_.color_indices[vertex];
+    const Vec4 world = transform(draw_.world_from_object, mesh_.positions[vertex]);
+    corner.position_world = {world.x / world.w, world.y / world.w, world.z / world.w};
+    run_stages(draw_, mesh_, mesh_.positions[vertex], corner);
     corners.all.push_back(corner);
   }
   return corners;

@@ -12,8 +12,9 @@ namespace tessera::reference {
 struct Corner {
   Vec4 position_clip;
   Vec3 position_eye;
-  Vec3 normal_eye;  ///< normalized if the draw says so; null if unlit
-  Vec4 color;       ///< the vertex colour; unused if the mesh has none
+  Vec3 position_world;  ///< for stages
+  Vec3 normal_eye;      ///< normalized if the draw says so; null if unlit
+  Vec4 color;           ///< the vertex colour; unused if the mesh has none
   TexCoord texcoord;
   double index = 0;  ///< the palette index; unused if the mesh has none
 };

@@ -52,10 +52,6 @@ void Value::refuse(std::string_view message, ErrorCode code) const {
               *file_ + ": " + (pointer_.empty() ? "(top level)" : pointer_) + ": " + std::string(message));
 }
 
-void Value::refuse_unsupported(std::string_view what) const {
-  refuse((what.empty() ? "is " : std::string(what) + " is ") + std::string(kUnsupported));
-}
-
 double Value::number() const {
   if (!json_->is_number()) fail("a number");
   const double x = json_->get<double>();
@@ -130,29 +126,18 @@ Rect Value::rect() const {
   return {at(0, -kMaxCoordinate), at(1, -kMaxCoordinate), at(2, 0), at(3, 0)};
 }
 
-void Value::refuse_choice(const std::vector<std::string_view>& names,
-                          std::span<const std::string_view> unsupported) const {
-  std::vector<std::string_view> all = names;
-  all.insert(all.end(), unsupported.begin(), unsupported.end());
+void Value::refuse_choice(const std::vector<std::string_view>& names) const {
   const std::string expected = (names.size() == 1 ? "" : "one of ") + quoted_list(names);
   if (!json_->is_string()) fail(expected);
-  const std::string& typed = text();
-  if (std::find(unsupported.begin(), unsupported.end(), typed) != unsupported.end())
-    refuse_unsupported("\"" + typed + "\"");
-  fail(expected + did_you_mean(typed, all));
+  fail(expected + did_you_mean(text(), names));
 }
 
-Object::Object(const Value& value, std::initializer_list<std::string_view> keys,
-               std::initializer_list<std::string_view> unsupported)
-    : value_(value) {
+Object::Object(const Value& value, std::initializer_list<std::string_view> keys) : value_(value) {
   if (!value.json().is_object()) value.fail("an object");
-  std::vector<std::string_view> all(keys);
-  all.insert(all.end(), unsupported);
+  const std::vector<std::string_view> all(keys);
   for (const auto& [key, unused] : value.json().items()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     const Value member = value.member(key);
-    if (std::find(unsupported.begin(), unsupported.end(), key) != unsupported.end())
-      member.refuse_unsupported();
     const std::string suggestion = did_you_mean(key, all);
     const std::string known = (keys.size() == 1 ? ", expected " : ", expected one of ") + quoted_list(keys);
     member.refuse("unknown key \"" + key + "\"" + (suggestion.empty() ? known : suggestion));
@@ -167,18 +152,6 @@ std::optional<Value> Object::find(const std::string& key) const {
 Value Object::require(const std::string& key) const {
   if (!has(key)) value_.refuse("key \"" + key + "\" is missing");
   return value_.member(key);
-}
-
-void Object::only_default(const std::string& key, const Json& default_value, const Json& others) const {
-  const std::optional<Value> found = find(key);
-  if (!found || found->json() == default_value) return;
-  const bool same_type = found->json().type() == default_value.type() ||
-                         (found->json().is_number() && default_value.is_number());
-  const bool is_listed = std::find(others.begin(), others.end(), found->json()) != others.end();
-  if (others.empty() ? same_type : is_listed) found->refuse_unsupported(description(found->json()));
-  std::string list = default_value.dump();
-  for (const Json& other : others) list += ", " + other.dump();
-  found->fail(others.empty() ? "a value like " + list : "one of " + list);
 }
 
 }  // namespace tessera::program::json

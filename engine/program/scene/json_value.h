@@ -47,8 +47,6 @@ class Value {
   [[noreturn]] void fail(std::string_view expected) const;
   /// @throws Error "file: pointer: message"
   [[noreturn]] void refuse(std::string_view message, ErrorCode code = ErrorCode::invalid_argument) const;
-  /// @throws Error for a value that the format defines but this version does not support
-  [[noreturn]] void refuse_unsupported(std::string_view what = "") const;
 
   double number() const;
   double number(double min_value, double max_value) const;
@@ -75,28 +73,25 @@ class Value {
   Matrix matrix() const;
   Rect rect() const;  ///< four integers; width and height at least 0
 
-  /// Returns the value of one of `names`. The format also defines `unsupported` names, which this version
-  /// refuses.
+  /// Returns the value of one of `names`.
   template <class Enum>
-  Enum choice(std::initializer_list<std::pair<std::string_view, Enum>> names,
-              std::initializer_list<std::string_view> unsupported = {}) const {
+  Enum choice(std::initializer_list<std::pair<std::string_view, Enum>> names) const {
     std::vector<std::string_view> all;
     for (const auto& [name, value] : names) {
       if (json_->is_string() && name == json_->get_ref<const std::string&>()) return value;
       all.push_back(name);
     }
-    refuse_choice(all, unsupported);
+    refuse_choice(all);
   }
 
   template <class Enum, std::size_t count>
-  Enum choice(const std::array<std::pair<std::string_view, Enum>, count>& names,
-              std::initializer_list<std::string_view> unsupported = {}) const {
+  Enum choice(const std::array<std::pair<std::string_view, Enum>, count>& names) const {
     std::vector<std::string_view> all;
     for (const auto& [name, value] : names) {
       if (json_->is_string() && name == json_->get_ref<const std::string&>()) return value;
       all.push_back(name);
     }
-    refuse_choice(all, unsupported);
+    refuse_choice(all);
   }
 
   /// Returns make(); an Error that it throws is rethrown with file and pointer of this value.
@@ -114,8 +109,7 @@ class Value {
  private:
   std::string pointer_to(const std::string& key) const;  // escaped by RFC 6901
   void expect_numbers(std::size_t count) const;
-  [[noreturn]] void refuse_choice(const std::vector<std::string_view>& names,
-                                  std::span<const std::string_view> unsupported) const;
+  [[noreturn]] void refuse_choice(const std::vector<std::string_view>& names) const;
 
   const Json* json_;
   std::string pointer_;
@@ -125,19 +119,13 @@ class Value {
 /// The members of an object.
 class Object {
  public:
-  /// @throws Error for a value other than an object, for an unknown key, and for an `unsupported` key of the
-  ///   format
-  Object(const Value& value, std::initializer_list<std::string_view> keys,
-         std::initializer_list<std::string_view> unsupported = {});
+  /// @throws Error for a value other than an object, and for an unknown key
+  Object(const Value& value, std::initializer_list<std::string_view> keys);
 
   const Value& value() const { return value_; }
   bool has(const std::string& key) const { return value_.json().contains(key); }
   std::optional<Value> find(const std::string& key) const;
   Value require(const std::string& key) const;
-  /// Refuses any value of a key but its default. `others` are the remaining values of the format, if it lists
-  /// them.
-  void only_default(const std::string& key, const Json& default_value,
-                    const Json& others = Json::array()) const;
 
  private:
   Value value_;

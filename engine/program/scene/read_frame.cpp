@@ -3,6 +3,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "engine/program/scene/named_stages.h"
 #include "engine/program/scene/read_scene.h"
 #include "engine/program/scene/state_names.h"
 #include "engine/program/scene/suggest.h"
@@ -187,7 +188,12 @@ DrawCommand read_draw(const Value& value, const Names& names) {
   if (const auto mode = object.find("polygon_mode")) read_polygon_mode(*mode, draw.state);
   if (const auto size = object.find("point_size")) draw.state.point_size = read_size(*size);
   if (const auto width = object.find("line_width")) draw.state.line_width = read_size(*width);
-  object.only_default("stages", Json::array());
+  if (const auto stages = object.find("stages"); stages && stages->size() > 0) {
+    if (draw.state.shadow_on) stages->refuse("a draw with \"shadow_on\" has no stages");
+    draw.stages =
+        std::make_shared<const NamedStages>(*stages, names.scene.meshes[draw.mesh], draw.state.transform);
+    draw.stages->attach(draw.state);
+  }
   return draw;
 }
 

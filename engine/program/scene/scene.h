@@ -23,6 +23,7 @@
 
 namespace tessera::program {
 
+class NamedStages;
 struct Picture;
 
 /// A perspective projection with the aspect of the picture.
@@ -51,6 +52,7 @@ SceneCamera camera_at(const Viewpoint& viewpoint, const Lens& lens);
 struct DrawCommand {
   std::size_t mesh = 0;  ///< index into Scene::meshes
   DrawState state;
+  std::shared_ptr<const NamedStages> stages{};  ///< user stages of `state`; null: none
   /// Range of the mesh's indices; index_count 0: the whole mesh.
   std::size_t first_index = 0, index_count = 0;
   std::string material_name{};  ///< models only

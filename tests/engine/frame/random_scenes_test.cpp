@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <set>
 
 #include "engine/program/scene/scene.h"
 #include "engine/program/threads/thread_limit.h"
@@ -90,6 +91,36 @@ TEST(RandomScenes, KeepTheirBitsWhateverIsLeftOut) {
     EXPECT_EQ(picture(scene, {.threads = threads, .tile_size = tile_size, .instruction_set = set}), in_full)
         << "scene " << seed << ", " << threads << " threads, tiles of " << tile_size << ", " << name(set);
   }
+}
+
+TEST(RandomScenes, KeepTheirBitsWithUserStages) {
+  const ThreadLimit limit(8);
+  const std::uint64_t count = std::getenv("TESSERA_LONG") != nullptr ? 200 : 60;
+  const std::vector<InstructionSet> sets = available_instruction_sets();
+  std::set<std::string> names;
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    const std::string text = random_scene_with_stages(seed);
+    const Scene scene = parse_scene(text, "random scene with stages");
+    const Fingerprint plain = picture(scene, {.threads = 1,
+                                              .tile_size = 64,
+                                              .instruction_set = InstructionSet::scalar,
+                                              .elide = false,
+                                              .debug = {.defer_shading = false}});
+    for (int threads = 1; threads <= 8; ++threads) {
+      const int tile_size = 32 << (seed + static_cast<std::uint64_t>(threads)) % 3;
+      const InstructionSet set = sets[(seed + static_cast<std::uint64_t>(threads)) % sets.size()];
+      EXPECT_EQ(picture(scene, {.threads = threads,
+                                .tile_size = tile_size,
+                                .instruction_set = set,
+                                .debug = {.defer_shading = threads % 4 != 0}}),
+                plain)
+          << "scene " << seed << ", " << threads << " threads, tiles of " << tile_size << ", " << name(set);
+    }
+    for (const char* stage :
+         {"gradient_object_y", "gradient_screen_y", "uncover", "clip", "window", "zoom", "falloff"})
+      if (text.find(stage) != std::string::npos) names.insert(stage);
+  }
+  EXPECT_EQ(names.size(), 7u);
 }
 
 /// Different caps for each seed; one of 8 caps nothing but the lights.

