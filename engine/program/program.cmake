@@ -71,8 +71,15 @@ add_custom_command(OUTPUT ${tessera_selftest}
   DEPENDS ${program_dir}/cli/embed_selftest.cmake ${selftest_list} ${selftest_hashes} ${selftest_files}
   COMMENT "Embedding the scenes of the self-test" VERBATIM)
 
+set(tessera_gallery ${CMAKE_CURRENT_BINARY_DIR}/gallery_files.cpp)
+file(GLOB gallery_files CONFIGURE_DEPENDS ${program_dir}/gallery/*)
+add_custom_command(OUTPUT ${tessera_gallery}
+  COMMAND ${CMAKE_COMMAND} -DFOLDER=${program_dir}/gallery -DOUTPUT=${tessera_gallery} -P ${program_dir}/cli/embed_gallery.cmake
+  DEPENDS ${program_dir}/cli/embed_gallery.cmake ${gallery_files}
+  COMMENT "Embedding the gallery" VERBATIM)
+
 file(GLOB tessera_cli_sources CONFIGURE_DEPENDS ${program_dir}/cli/*.cpp)
-add_executable(tessera_cli ${tessera_cli_sources} ${tessera_selftest})
+add_executable(tessera_cli ${tessera_cli_sources} ${tessera_selftest} ${tessera_gallery})
 target_link_libraries(tessera_cli PRIVATE
   tessera_options tessera_scene tessera tessera_display CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
 target_compile_options(tessera_cli PRIVATE $<$<CONFIG:Release>:-O1>)  # a third less compile time; draws nothing itself

@@ -1,5 +1,5 @@
 // Declares the options of `tessera render`, `explain`, `compare`, `modes`, `color`, `display`,
-// `scene` and `selftest`.
+// `scene`, `gallery` and `selftest`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,6 +8,7 @@
 #include "engine/program/cli/compare_command.h"
 #include "engine/program/cli/display_command.h"
 #include "engine/program/cli/explain_command.h"
+#include "engine/program/cli/gallery_command.h"
 #include "engine/program/cli/modes_command.h"
 #include "engine/program/cli/render_command.h"
 #include "engine/program/cli/scene_command.h"
@@ -23,6 +24,7 @@ CLI::App* add_modes(CLI::App& program, ModesRequest& request);
 CLI::App* add_color(CLI::App& program, ColorRequest& request);
 CLI::App* add_display(CLI::App& program, DisplayCommandRequest& request);
 CLI::App* add_scene(CLI::App& program, SceneRequest& request);
+CLI::App* add_gallery(CLI::App& program, GalleryRequest& request);
 CLI::App* add_selftest(CLI::App& program, SelftestRequest& request);
 
 /// Adds --import-memory and --import-seconds to a command.

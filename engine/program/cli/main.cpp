@@ -17,6 +17,7 @@
 #include "engine/program/cli/command_docs.h"
 #include "engine/program/cli/command_options.h"
 #include "engine/program/cli/display_command.h"
+#include "engine/program/cli/gallery_command.h"
 #include "engine/program/cli/info_command.h"
 #include "engine/program/cli/modes_command.h"
 #include "engine/program/cli/printable.h"
@@ -81,7 +82,7 @@ std::string unexpected_argument(const CLI::App& program) {
   return "unknown command \"" + word + "\"" +
          did_you_mean(word,
                       Names{"render", "explain", "compare", "info", "selftest", "bench", "price", "accuracy",
-                            "modes", "color", "display", "scene", "formats", "completion", "man"});
+                            "modes", "color", "display", "scene", "gallery", "formats", "completion", "man"});
 }
 
 int usage_error(const std::string& message, const CLI::App& program) {
@@ -131,6 +132,7 @@ struct Requests {
   ColorRequest color;
   DisplayCommandRequest display;
   SceneRequest scene;
+  GalleryRequest gallery;
   SelftestRequest selftest;
   std::string shell;  ///< for `completion`
 };
@@ -144,6 +146,7 @@ struct Commands {
   CLI::App* color;
   CLI::App* display;
   CLI::App* scene;
+  CLI::App* gallery;
   CLI::App* info;
   CLI::App* selftest;
   CLI::App* bench;
@@ -191,6 +194,7 @@ Commands add_commands(CLI::App& program, Requests& requests) {
   commands.color = add_color(program, requests.color);
   commands.display = add_display(program, requests.display);
   commands.scene = add_scene(program, requests.scene);
+  commands.gallery = add_gallery(program, requests.gallery);
   commands.info = add_plain("info", "Describe this machine and what Tessera uses of it", "tessera info");
   commands.selftest = add_selftest(program, requests.selftest);
   commands.bench =
@@ -238,6 +242,7 @@ int run(int argument_count, char** arguments) {
   const bool compares_modes = !requests.modes.comparison.folder.empty();
   if (compares_modes) threads = &requests.modes.comparison.threads;
   if (commands.display->parsed()) threads = &requests.display.threads;
+  if (commands.gallery->parsed()) threads = &requests.gallery.threads;
   if (commands.selftest->parsed()) threads = &requests.selftest.threads;
   if (threads != nullptr)
     if (const std::string wrong = read_threads_variable(*threads); !wrong.empty())
@@ -266,6 +271,7 @@ int run(int argument_count, char** arguments) {
   else if (commands.color->parsed()) std::cout << colors_text(requests.color);
   else if (commands.display->parsed()) display(requests.display);
   else if (commands.scene->parsed()) write_model_scene(requests.scene);
+  else if (commands.gallery->parsed()) gallery(requests.gallery);
   else if (commands.info->parsed()) std::cout << info_text();
   else if (commands.formats->parsed()) std::cout << formats_text();
   else if (commands.completion->parsed()) std::cout << completion_script(requests.shell, docs_of(program));

@@ -1,0 +1,17 @@
+// The files of the gallery: gallery.txt, scenes, and models that scenes read. embed_gallery.cmake generates
+// the source from engine/program/gallery.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace tessera::program::cli {
+
+struct GalleryFile {
+  std::string_view name;
+  std::string_view content;
+};
+
+extern const std::span<const GalleryFile> kGalleryFiles;
+
+}  // namespace tessera::program::cli
