@@ -74,9 +74,10 @@ std::optional<double> mode_aspect(const GalleryPicture& picture) {
   return mode->pixel_aspect.value() * mode->width / mode->height;
 }
 
-int column_count(std::size_t pictures) {
+/// Columns of a sheet about 1.6 times as wide as high, whose cells are 4:3 with a label.
+int column_count(int pictures) {
   int columns = 1;
-  while (columns < kMaxColumns && static_cast<std::size_t>(columns * columns) < pictures) ++columns;
+  while (columns < std::min(kMaxColumns, pictures) && columns * columns * 5 < pictures * 8) ++columns;
   return columns;
 }
 
@@ -126,8 +127,8 @@ void Gallery::run() {
   }
   write_sheet();
   progress.clear();
-  std::cout << drawn_.size() << " pictures in " << printable(request_.folder) << "; " << kPage << " shows "
-            << shown_.size() << "\n";
+  std::cout << drawn_.size() << (drawn_.size() == 1 ? " picture" : " pictures") << " in "
+            << printable(request_.folder) << "; " << kPage << " shows " << shown_.size() << "\n";
 }
 
 void Gallery::write_page() const {
@@ -149,7 +150,7 @@ void Gallery::draw(const GalleryPicture& picture) const {
 }
 
 void Gallery::write_sheet() const {
-  const int columns = column_count(shown_.size());
+  const int columns = column_count(static_cast<int>(shown_.size()));
   std::vector<SheetCell> cells;
   for (const GalleryPicture* picture : shown_) {
     const Picture drawn = read_picture(path_of(picture->picture_file()));

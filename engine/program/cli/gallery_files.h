@@ -9,7 +9,7 @@ namespace tessera::program::cli {
 
 struct GalleryFile {
   std::string_view name;
-  std::string_view content;
+  const char* content;  ///< too long for the compiler to measure, as std::string_view does
 };
 
 extern const std::span<const GalleryFile> kGalleryFiles;

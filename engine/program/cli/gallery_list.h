@@ -9,10 +9,10 @@
 namespace tessera::program::cli {
 
 struct GalleryPicture {
-  std::string name;                  ///< of NAME.json and NAME.png
+  std::string name;                  ///< NAME.json is its scene, NAME.png the picture
   std::string group;                 ///< heading of the pictures around it
   std::string text;                  ///< the title of the scene: what the picture shows
-  std::vector<std::string> options;  ///< of the `tessera render` that draws it
+  std::vector<std::string> options;  ///< options of the `tessera render` that draws it
   std::vector<std::string> inputs;   ///< other files that the scene reads
 
   std::string scene_file() const { return name + ".json"; }

@@ -18,11 +18,11 @@ constexpr const char* kGalleryExamples = R"(Examples:
 CLI::App* add_gallery(CLI::App& program, GalleryRequest& request) {
   CLI::App* command = program.add_subcommand(
       "gallery",
-      "Draw pictures of what the renderer can do, each from a scene file that is written beside it");
+      "Draw pictures of what the renderer can do, each from a scene file that is written next to it");
   command->footer(kGalleryExamples);
   command->option_defaults()->take_last();
   command
-      ->add_option("folder", request.folder,
+      ->add_option("DIR", request.folder,
                    "folder for the pictures, their scenes, index.html and the contact sheet index.png")
       ->option_text("DIR")
       ->check(not_empty("DIR's name"));

@@ -59,7 +59,7 @@ std::string gallery_page(std::span<const ShownGalleryPicture> pictures) {
       "\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>Tessera: gallery</title>\n"
       "<style>" +
       std::string(kStyle) + "</style>\n</head>\n<body>\n<h1>Tessera " + escaped(version()) +
-      ": gallery</h1>\n<p>Each picture is drawn from the scene file beside it by the command "
+      ": gallery</h1>\n<p>Each picture is drawn from the scene file next to it by the command "
       "below it. All on one sheet: " +
       link("index.png") + ".</p>\n<main>\n";
   std::string_view group;
