@@ -9,7 +9,7 @@ find_package(meshoptimizer CONFIG REQUIRED)
 pkg_check_modules(DRACO REQUIRED IMPORTED_TARGET draco)
 find_path(TESSERA_TINYGLTF_INCLUDE tiny_gltf.h REQUIRED)  # the header alone: its CMake target links an implementation with image readers
 find_package(CLI11 CONFIG REQUIRED)
-find_package(PNG REQUIRED)
+pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)  # compression of PNG files
 # Debian's CMake package of OpenImageIO is broken.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET "OpenImageIO>=2.4" Imath)
 
@@ -27,7 +27,7 @@ add_custom_command(OUTPUT ${tessera_embedded}
 file(GLOB tessera_scene_sources CONFIGURE_DEPENDS
   ${program_dir}/scene/*.cpp ${program_dir}/import/*.cpp ${program_dir}/imageio/*.cpp
   ${program_dir}/compare/*.cpp ${program_dir}/threads/*.cpp)
-set(tessera_imageio_sources ${program_dir}/imageio/module.cpp ${program_dir}/imageio/indexed_png.cpp)
+set(tessera_imageio_sources ${program_dir}/imageio/module.cpp)
 set(tessera_import_sources
   import_module.cpp assimp_material.cpp assimp_model.cpp assimp_view.cpp)
 list(TRANSFORM tessera_import_sources PREPEND ${program_dir}/import/)
@@ -39,11 +39,11 @@ set_source_files_properties(${program_dir}/import/tinygltf_implementation.cpp PR
   SKIP_UNITY_BUILD_INCLUSION ON COMPILE_OPTIONS -w)  # a library's code
 target_link_libraries(tessera_scene PRIVATE
   tessera_options TBB::tbb nlohmann_json::nlohmann_json
-  meshoptimizer::meshoptimizer PkgConfig::DRACO ${CMAKE_DL_LIBS})
+  meshoptimizer::meshoptimizer PkgConfig::DRACO PkgConfig::DEFLATE ${CMAKE_DL_LIBS})
 
 
 add_library(tessera_imageio SHARED ${tessera_imageio_sources})
-target_link_libraries(tessera_imageio PRIVATE tessera_options PkgConfig::OIIO PNG::PNG)
+target_link_libraries(tessera_imageio PRIVATE tessera_options PkgConfig::OIIO)
 set_target_properties(tessera_imageio PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${tessera_soversion})
 
 find_package(assimp CONFIG REQUIRED)

@@ -19,7 +19,7 @@ add_library(tessera_accuracy_parts OBJECT ${tessera_accuracy_sources})
 add_executable(tessera_accuracy perf/accuracy/main.cpp $<TARGET_OBJECTS:tessera_accuracy_parts>)
 foreach(target tessera_accuracy_parts tessera_accuracy)
   target_link_libraries(${target} PRIVATE tessera_options tessera_reference tessera_scene tessera
-    CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb PNG::PNG Threads::Threads)
+    CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb Threads::Threads)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)  # the measured code is in the library
   set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # files reuse names such as Json
 endforeach()

@@ -11,7 +11,6 @@ namespace tessera::accuracy {
 enum class PngEffort { fast, small };
 
 /// Encodes red, green and blue of a picture, 8 bits per component.
-/// @throws Error if memory runs out
 std::string png_bytes(const program::Picture& picture, PngEffort effort);
 
 /// Text of bytes in base64 [RFC 4648, section 4], for data URIs.

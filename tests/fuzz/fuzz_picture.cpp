@@ -4,8 +4,8 @@
 
 #include <png.h>
 
-#include "engine/program/imageio/indexed_png.h"
 #include "engine/program/imageio/picture.h"
+#include "engine/program/imageio/png.h"
 #include "tests/fuzz/files.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/target.h"
@@ -31,18 +31,16 @@ void write_png(FuzzInput& from) {
   const int height = 1 + from.below(40);
   const int entries = from.integer(0, 1 << bits);
   const int compression = from.below(10);
-  std::vector<unsigned char> indices;
-  std::vector<unsigned char> palette;
-  std::vector<unsigned char> file;
+  IndexedPicture picture{.width = width, .height = height, .bits = bits};
   for (int i = 0; i < width * height; ++i)
-    indices.push_back(
+    picture.indices.push_back(
         static_cast<unsigned char>(from.byte() % (entries > 0 && entries < 256 ? entries : 1 << bits)));
   if (entries < 0 || entries > 256) return;  // palettes of files have at most 256 entries
-  for (int i = 0; i < 3 * entries; ++i) palette.push_back(from.byte());
-  const std::string reason =
-      encode_indexed_png(indices.data(), width, height, bits, palette.data(), entries, compression, file);
-  require(reason.empty() == (entries <= 1 << bits), "a palette is refused if and only if it does not fit");
-  if (!reason.empty()) return;
+  for (int i = 0; i < 3 * entries; ++i) picture.palette.push_back(from.byte());
+  std::string file;
+  const auto error = error_of([&] { file = encode_png(as_png(picture), compression); });
+  require(error.has_value() == (entries > 1 << bits), "a palette is refused if and only if it does not fit");
+  if (error) return;
 
   png_image image = {};
   image.version = PNG_IMAGE_VERSION;
@@ -54,10 +52,10 @@ void write_png(FuzzInput& from) {
   std::vector<unsigned char> pixels(PNG_IMAGE_SIZE(image));
   require(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) != 0,
           "a PNG that ends too early");
-  for (std::size_t i = 0; i < indices.size(); ++i)
+  for (std::size_t i = 0; i < picture.indices.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
-      const int wanted =
-          entries > 0 ? palette[3 * std::size_t{indices[i]} + c] : indices[i] * 255 / ((1 << bits) - 1);
+      const int wanted = entries > 0 ? picture.palette[3 * std::size_t{picture.indices[i]} + c]
+                                     : picture.indices[i] * 255 / ((1 << bits) - 1);
       require(pixels[3 * i + c] == wanted, "a pixel of the PNG has another colour");
     }
 }

@@ -46,8 +46,8 @@ const std::set<std::string> kArithmetic = {"framebuffer/exact_functions.h", "fra
 
 const std::vector<std::string> kTbb = {"tbb/", "oneapi/"};
 const std::vector<std::string> kHighway = {"hwy/"};
-const std::vector<std::string> kImageFiles = {"OpenImageIO/", "Imath/",    "OpenEXR/",
-                                              "png.h",        "pngconf.h", "libpng"};
+const std::vector<std::string> kImageFiles = {"OpenImageIO/", "Imath/", "OpenEXR/",    "png.h",
+                                              "pngconf.h",    "libpng", "libdeflate.h"};
 const std::vector<std::string> kProgramOnly = {"nlohmann/", "CLI/", "tiny_obj_loader.h", "assimp/"};
 
 const std::set<std::string> kTbbFiles = {"engine/runtime/worker_pool.cpp",

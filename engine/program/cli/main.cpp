@@ -1,5 +1,6 @@
 // The program tessera. Exit codes: 0 success, 1 failure, 2 wrong usage, 3 the picture differs from its
 // reference or the self-test failed, 130 interrupted. A line on stderr gives the reason.
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -247,6 +248,11 @@ int run(int argument_count, char** arguments) {
   if (threads != nullptr)
     if (const std::string wrong = read_threads_variable(*threads); !wrong.empty())
       return usage_error("TESSERA_THREADS: " + wrong, program);
+  // A closed pipe is an error of the write. Commands that print text end silently, as others in a pipeline
+  // do.
+  for (const CLI::App* writer :
+       {commands.render, commands.compare, commands.modes, commands.display, commands.scene})
+    if (writer->parsed()) std::signal(SIGPIPE, SIG_IGN);
   if (commands.selftest->parsed()) return selftest(requests.selftest);
   if (commands.bench->parsed()) exec_measurement("tessera-bench", commands.bench->remaining());
   if (commands.price->parsed()) {

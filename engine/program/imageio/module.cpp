@@ -1,4 +1,4 @@
-// The module libtessera_imageio: with indexed_png.cpp the only code that uses OpenImageIO and libpng.
+// The module libtessera_imageio: the only code that uses OpenImageIO.
 // OpenImageIO depends on 260 libraries of 130 MiB, so the program loads the module on first use.
 #include <algorithm>
 #include <cstdio>
@@ -11,14 +11,10 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include "engine/program/imageio/indexed_png.h"
 #include "engine/program/imageio/module_interface.h"
 #include "engine/tessera/export.h"
 
 namespace {
-
-// zlib's level 3 makes files 10 to 20 percent larger than its default 6, in a third of the time.
-constexpr int kPngCompression = 3;
 
 using Bytes = std::vector<unsigned char>;
 
@@ -28,7 +24,7 @@ struct Failure {
 };
 
 Bytes encode(const std::string& extension, const unsigned char* rgba, int width, int height,
-             std::ptrdiff_t stride_bytes, int channels, int compression) {
+             std::ptrdiff_t stride_bytes, int channels) {
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("picture" + extension);
   if (!output) {
     OIIO::geterror();  // cleared: its text names a file that does not exist
@@ -40,7 +36,6 @@ Bytes encode(const std::string& extension, const unsigned char* rgba, int width,
     throw Failure{"OpenImageIO cannot encode " + extension + " in memory"};
   OIIO::ImageSpec spec(width, height, output->supports("alpha") ? channels : 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:UnassociatedAlpha", 1);  // colours are not multiplied by alpha
-  spec.attribute("png:compressionLevel", compression >= 0 ? compression : kPngCompression);
   const bool is_encoded = output->open("picture" + extension, spec) &&
                           output->write_image(OIIO::TypeDesc::UINT8, rgba, 4, stride_bytes) &&
                           output->close();
@@ -129,30 +124,12 @@ int deliver_bytes(tessera_imageio_take_function* take, void* user, char* message
 
 }  // namespace
 
-extern "C" TESSERA_API int tessera_imageio_encode_3(const char* extension, const unsigned char* rgba,
+extern "C" TESSERA_API int tessera_imageio_encode_4(const char* extension, const unsigned char* rgba,
                                                     int width, int height, std::ptrdiff_t stride_bytes,
-                                                    int channels, int compression,
-                                                    tessera_imageio_take_function* take, void* user,
-                                                    char* message, std::size_t message_size) {
-  return deliver_bytes(take, user, message, message_size, [&] {
-    return encode(extension, rgba, width, height, stride_bytes, channels, compression);
-  });
-}
-
-extern "C" TESSERA_API int tessera_imageio_encode_indexed_1(const unsigned char* indices, int width,
-                                                            int height, int bits,
-                                                            const unsigned char* palette, int palette_entries,
-                                                            int compression,
-                                                            tessera_imageio_take_function* take, void* user,
-                                                            char* message, std::size_t message_size) {
-  return deliver_bytes(take, user, message, message_size, [&] {
-    Bytes bytes;
-    const std::string reason =
-        tessera::program::encode_indexed_png(indices, width, height, bits, palette, palette_entries,
-                                             compression >= 0 ? compression : kPngCompression, bytes);
-    if (!reason.empty()) throw Failure{reason};
-    return bytes;
-  });
+                                                    int channels, tessera_imageio_take_function* take,
+                                                    void* user, char* message, std::size_t message_size) {
+  return deliver_bytes(take, user, message, message_size,
+                       [&] { return encode(extension, rgba, width, height, stride_bytes, channels); });
 }
 
 extern "C" TESSERA_API int tessera_imageio_decode_2(const char* extension, const unsigned char* bytes,

@@ -16,21 +16,12 @@ typedef void tessera_imageio_take_function(void* user, const unsigned char* byte
    The program reads and writes the files: some of OpenImageIO's writers do not notice a full disk. */
 
 /* Encodes RGBA pixels of 8 bits per component, rows from the top.
-   extension    selects the format: ".png"
-   channels     of the image: 3, without alpha, or 4
-   compression  of PNG, 0 .. 9; -1: a fast default */
+   extension  selects the format: ".tif"
+   channels   of the image: 3, without alpha, or 4 */
 typedef int tessera_imageio_encode_function(const char* extension, const unsigned char* rgba, int width,
-                                            int height, ptrdiff_t stride_bytes, int channels, int compression,
+                                            int height, ptrdiff_t stride_bytes, int channels,
                                             tessera_imageio_take_function* take, void* user, char* message,
                                             size_t message_size);
-
-/* Encodes a PNG of 1, 2, 4 or 8 bits per pixel from indices into a palette of 3 bytes per entry; grey if
-   palette_entries is 0. */
-typedef int tessera_imageio_encode_indexed_function(const unsigned char* indices, int width, int height,
-                                                    int bits, const unsigned char* palette,
-                                                    int palette_entries, int compression,
-                                                    tessera_imageio_take_function* take, void* user,
-                                                    char* message, size_t message_size);
 
 /* Decodes an image file. `take` receives three ints, width, height and number of channels (1 to 4; further
    ones are ignored), then RGBA pixels, rows from the top. With one or two channels red = green = blue;
@@ -44,8 +35,7 @@ typedef int tessera_imageio_formats_function(tessera_imageio_take_function* take
                                              size_t message_size);
 
 /* The numbers change with the signatures. */
-#define TESSERA_IMAGEIO_ENCODE_NAME "tessera_imageio_encode_3"
-#define TESSERA_IMAGEIO_ENCODE_INDEXED_NAME "tessera_imageio_encode_indexed_1"
+#define TESSERA_IMAGEIO_ENCODE_NAME "tessera_imageio_encode_4"
 #define TESSERA_IMAGEIO_DECODE_NAME "tessera_imageio_decode_2"
 #define TESSERA_IMAGEIO_FORMATS_NAME "tessera_imageio_formats_1"
 #define TESSERA_IMAGEIO_FILE_NAME "libtessera_imageio.so." TESSERA_SOVERSION

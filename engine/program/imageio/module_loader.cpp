@@ -13,7 +13,8 @@ namespace {
 template <class Function>
 Function* imageio_module_function(const char* name, const std::string& wanted_for) {
   // If load_module() throws, the next call tries again.
-  static void* const module = load_module(TESSERA_IMAGEIO_FILE_NAME, wanted_for, ".ppm works without it");
+  static void* const module =
+      load_module(TESSERA_IMAGEIO_FILE_NAME, wanted_for, ".png and .ppm pictures are written without it");
   return reinterpret_cast<Function*>(function_of(module, TESSERA_IMAGEIO_FILE_NAME, name));
 }
 
@@ -23,22 +24,12 @@ const unsigned char* bytes_of(const std::string& text) {
 
 }  // namespace
 
-std::string encode_by_module(const Picture& picture, const std::string& extension, int channels,
-                             int compression) {
+std::string encode_by_module(const Picture& picture, const std::string& extension, int channels) {
   auto* const encode =
       imageio_module_function<tessera_imageio_encode_function>(TESSERA_IMAGEIO_ENCODE_NAME, extension);
   return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
     return encode(extension.c_str(), picture.rgba.data(), picture.width, picture.height,
-                  4 * std::ptrdiff_t{picture.width}, channels, compression, take, user, message, size);
-  });
-}
-
-std::string encode_indexed_by_module(const IndexedPicture& picture, int compression) {
-  auto* const encode = imageio_module_function<tessera_imageio_encode_indexed_function>(
-      TESSERA_IMAGEIO_ENCODE_INDEXED_NAME, ".png");
-  return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
-    return encode(picture.indices.data(), picture.width, picture.height, picture.bits, picture.palette.data(),
-                  static_cast<int>(picture.palette.size() / 3), compression, take, user, message, size);
+                  4 * std::ptrdiff_t{picture.width}, channels, take, user, message, size);
   });
 }
 

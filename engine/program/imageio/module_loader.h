@@ -10,14 +10,9 @@
 namespace tessera::program {
 
 /// Returns the bytes of an image file.
-/// @param extension    selects the format; in lower case with its dot
-/// @param channels     3: without alpha; 4
-/// @param compression  PNG level, 0 .. 9, or kDefaultCompression
-std::string encode_by_module(const Picture& picture, const std::string& extension, int channels,
-                             int compression);
-
-/// Returns the bytes of a PNG file.
-std::string encode_indexed_by_module(const IndexedPicture& picture, int compression);
+/// @param extension  selects the format; in lower case with its dot
+/// @param channels   3: without alpha; 4
+std::string encode_by_module(const Picture& picture, const std::string& extension, int channels);
 
 /// Decodes the bytes of an image file.
 Picture decode_by_module(const std::string& file, const std::string& extension);

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 
 #include "engine/program/imageio/atomic_file.h"
 #include "engine/program/imageio/float_picture.h"
 #include "engine/program/imageio/module_loader.h"
+#include "engine/program/imageio/png.h"
 #include "engine/program/scene/file_extension.h"
 #include "engine/program/scene/text_file.h"
 
@@ -70,7 +72,15 @@ void divide_by_alpha(Picture& picture) {
   }
 }
 
-std::vector<std::string> builtin_extensions() { return {".pbm (1 bit)", ".pfm", ".pgm", ".ppm", ".raw"}; }
+std::vector<std::string> builtin_extensions() {
+  return {".pbm (1 bit)", ".pfm", ".pgm", ".png", ".ppm", ".raw"};
+}
+
+bool is_written_by_module(const std::string& path) {
+  constexpr std::string_view kBuiltin[] = {".pbm", ".pfm", ".pgm", ".png", ".ppm", ".raw"};
+  return std::find(std::begin(kBuiltin), std::end(kBuiltin), lower_case_extension(path)) ==
+         std::end(kBuiltin);
+}
 
 namespace {
 
@@ -95,7 +105,9 @@ std::string encode_picture(const Picture& picture, const std::string& path, int 
     if (extension == ".pgm") return pgm(picture);
     if (extension == ".pfm") return pfm(picture);
     if (extension == ".raw") return raw(picture);
-    return encode_by_module(picture, extension, picture.keeps_alpha ? 4 : 3, compression);
+    const int channels = picture.keeps_alpha ? 4 : 3;
+    if (extension == ".png") return encode_png(as_png(picture, channels), compression);
+    return encode_by_module(picture, extension, channels);
   });
 }
 
@@ -160,8 +172,7 @@ Picture decode_picture(const std::string& file, const std::string& name) {
 Picture read_picture(const std::string& path) { return decode_picture(read_text_file(path), path); }
 
 void write_indexed_png(const IndexedPicture& picture, const std::string& path, int compression) {
-  write_file_atomically(path,
-                        encoded_for(path, [&] { return encode_indexed_by_module(picture, compression); }));
+  write_file_atomically(path, encoded_for(path, [&] { return encode_png(as_png(picture), compression); }));
 }
 
 void write_picture(const Picture& picture, const std::string& path, int compression) {
@@ -169,8 +180,7 @@ void write_picture(const Picture& picture, const std::string& path, int compress
 }
 
 void write_png_with_alpha(const Picture& picture, const std::string& path, int compression) {
-  write_file_atomically(path,
-                        encoded_for(path, [&] { return encode_by_module(picture, ".png", 4, compression); }));
+  write_file_atomically(path, encoded_for(path, [&] { return encode_png(as_png(picture, 4), compression); }));
 }
 
 std::optional<std::filesystem::path> require_writable_picture(const std::string& path) {

@@ -1,5 +1,5 @@
-// Reads and writes pictures and planes as files. PPM, PGM, PFM, PBM and raw are written here; every other
-// format is written by the module libtessera_imageio, which is loaded on first use.
+// Reads and writes pictures and planes as files. PNG, PPM, PGM, PFM, PBM and raw are written here; every
+// other format is written by the module libtessera_imageio, which is loaded on first use.
 #pragma once
 
 #include <cstdint>
@@ -70,6 +70,8 @@ Picture read_picture(const std::string& path);
 
 /// Returns the file name extensions that are written without the module.
 std::vector<std::string> builtin_extensions();
+/// Returns whether files of this name are written by the module.
+bool is_written_by_module(const std::string& path);
 /// Returns the file name extensions that the module writes.
 /// @throws Error without the module
 std::vector<std::string> module_extensions();
