@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/program/cli/animation_options.h"
 #include "engine/program/cli/choice_option.h"
 #include "engine/program/cli/parse_overrides.h"
 #include "engine/program/cli/validators.h"
@@ -25,6 +26,7 @@ constexpr const char* kRenderExamples = R"(Examples:
   tessera render --mode vga13h --display vga14 -o tube.png         as its monitor shows it
   tessera render --planes planes --stats          also every bitplane, and statistics
   tessera render scene.json --frames 50 -o 'frame_{frame}.png'     an animation
+  tessera render truck.glb --turntable 50 -o truck.png             one turn, as an animated PNG
   tessera render -o term                          the picture in the terminal
   tessera render scene.json --compare right.png --threshold 2      exits with 3 if it differs)";
 
@@ -57,13 +59,14 @@ void add_input_format(CLI::App& command, RenderRequest& request) {
           "stl, glb, ...")
       ->option_text("FORMAT")
       ->check(not_empty("FORMAT"));
-  command.parse_complete_callback([&request] {
-    const bool is_stdin = request.input == "-";
-    if (is_stdin && request.import.format.empty())
-      throw CLI::ValidationError("--input-format", "found none, the input - needs one, such as stl");
-    if (!is_stdin && !request.import.format.empty())
-      throw CLI::ValidationError("--input-format", "is for the input -, standard input, alone");
-  });
+}
+
+void check_input_format(const RenderRequest& request) {
+  const bool is_stdin = request.input == "-";
+  if (is_stdin && request.import.format.empty())
+    throw CLI::ValidationError("--input-format", "found none, the input - needs one, such as stl");
+  if (!is_stdin && !request.import.format.empty())
+    throw CLI::ValidationError("--input-format", "is for the input -, standard input, alone");
 }
 
 void add_output(CLI::App& command, RenderRequest& request) {
@@ -71,7 +74,8 @@ void add_output(CLI::App& command, RenderRequest& request) {
       .add_option(
           "-o,--output", request.output.path,
           "picture to write: .png, .ppm, .pgm, .pfm, .raw or another format of OpenImageIO; {frame} in "
-          "the name is the frame's number; - is the standard output (PPM), term the terminal; default: "
+          "the name is the frame's number, several frames without it are an animated PNG; - is the standard "
+          "output (PPM), term the terminal; default: "
           "INPUT.render.png in the current folder, tessera.png for the built-in scene")
       ->option_text("FILE")
       ->check(not_empty("FILE's name"));
@@ -192,27 +196,7 @@ void add_drawing(CLI::App& command, SceneOverrides& overrides) {
                              "axis of a model's file that points up; default: y");
 }
 
-void add_turntable(CLI::App& command, RenderRequest& request) {
-  command
-      .add_option_function<int>(
-          "--turntable",
-          [&request](int frames) {
-            request.frames = frames;
-            request.overrides.turntable = true;
-          },
-          "pictures of one turn of the scene around its vertical axis; after the last comes the first again; "
-          "{frame} in names is the number")
-      ->option_text("N")
-      ->transform(integer_from(1, 1000000))
-      ->excludes(command.get_option("--frames"));
-}
-
 void add_repetition(CLI::App& command, RenderRequest& request) {
-  command
-      .add_option("--frames", request.frames,
-                  "pictures of an animation, t = 0 .. 1; {frame} in names is the number")
-      ->option_text("N")
-      ->transform(integer_from(1, 1000000));
   command.add_option("--repeat", request.repeat, "render each picture N times; --stats shows the median")
       ->option_text("N")
       ->transform(integer_from(1, 1000000));
@@ -301,11 +285,15 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   add_planes(*command, request);
   add_view(*command, request.overrides);
   add_drawing(*command, request.overrides);
+  add_animation(*command, request);
   add_repetition(*command, request);
-  add_turntable(*command, request);
   add_comparison(*command, request);
   add_renderer_options(*command, request.options);
   add_reports(*command, request);
+  command->parse_complete_callback([&request] {
+    check_input_format(request);
+    check_animation(request);
+  });
   return command;
 }
 

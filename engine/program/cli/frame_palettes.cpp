@@ -1,7 +1,9 @@
 #include "engine/program/cli/frame_palettes.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <tuple>
 
 #include "engine/program/scene/chosen_palette.h"
 
@@ -35,7 +37,29 @@ std::vector<Color> ramps_of_animation(SceneInput& input, int frames, Renderer& r
   return ramp_palette(ramps.groups, ramps.colors, scene_palette_request(input.scene()));
 }
 
+bool has_same_colors(const FrameBufferFormat& a, const FrameBufferFormat& b) {
+  const auto is_same = [](const Color& x, const Color& y) {
+    return std::tie(x.r, x.g, x.b) == std::tie(y.r, y.g, y.b);
+  };
+  return a.color_mode == b.color_mode && a.color_bits == b.color_bits &&
+         std::equal(a.palette.begin(), a.palette.end(), b.palette.begin(), b.palette.end(), is_same);
+}
+
 }  // namespace
+
+bool frames_share_palette(SceneInput& input, int frames) {
+  const Scene& first = input.scene();
+  if (first.palette_source != PaletteSource::given && first.palette_over != PaletteOver::animation)
+    return false;
+  std::optional<FrameBufferFormat> shared;
+  bool is_shared = true;
+  for_pictures(input, frames, [&](const Scene& scene) {
+    const FrameBufferFormat& format = scene.reduced ? *scene.reduced : scene.framebuffer;
+    if (!shared) shared = format;
+    is_shared = is_shared && has_same_colors(*shared, format);
+  });
+  return is_shared;
+}
 
 FramePalettes::FramePalettes(SceneInput& input, int frames, Renderer& renderer) {
   const PaletteSource source = input.scene().palette_source;

@@ -10,6 +10,10 @@
 
 namespace tessera::program::cli {
 
+/// Returns whether all pictures of an animation have the same number of bits per pixel and the same palette.
+/// @param input  moved to the time of each picture
+bool frames_share_palette(SceneInput& input, int frames);
+
 /// Chooses a palette for each picture, or one for all.
 class FramePalettes {
  public:

@@ -46,6 +46,8 @@ std::string color_code(const char* layer, const Mean& c) {
 
 bool is_stream(const std::string& path) { return path == "-" || path == "term"; }
 
+bool names_frames(const std::string& path) { return path.find(kFrame) != std::string::npos; }
+
 std::string frame_path(const std::string& path, int frame, int frames) {
   const std::size_t digits = std::max<std::size_t>(4, std::to_string(frames - 1).size());
   std::string number = std::to_string(frame);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -15,13 +16,13 @@
 #include "engine/program/cli/frame_palettes.h"
 #include "engine/program/cli/indexed_frame.h"
 #include "engine/program/cli/memory_dump.h"
+#include "engine/program/cli/picture_output.h"
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/scene_buffers.h"
 #include "engine/program/cli/scene_input.h"
 #include "engine/program/cli/shown_pictures.h"
 #include "engine/program/compare/picture_errors.h"
-#include "engine/program/imageio/atomic_file.h"
-#include "engine/program/imageio/pbm.h"
+#include "engine/program/imageio/screen_picture.h"
 #include "engine/program/scene/file_extension.h"
 #include "engine/program/scene/scene_mode.h"
 #include "engine/program/threads/thread_limit.h"
@@ -68,13 +69,15 @@ void write_planes(const SceneBuffers& buffers, const fs::path& folder) {
   }
 }
 
-bool is_indexed_png(const FrameBufferFormat& format, const std::string& path) {
-  return is_indexed(format) && lower_case_extension(path) == ".png";
-}
+/// The part of a frame that a file holds.
+enum class FileContent { picture, indices, one_bit };
 
-/// Frames of 1 bit may be written as PBM.
-bool is_one_bit_pbm(const FrameBufferFormat& format, const std::string& path) {
-  return format.color_bits == 1 && lower_case_extension(path) == ".pbm";
+/// @param may_be_indexed  false: pixels of PNG files have components
+FileContent file_content(const FrameBufferFormat& format, const std::string& path, bool may_be_indexed) {
+  const std::string extension = lower_case_extension(path);
+  if (extension == ".png" && may_be_indexed && is_indexed(format)) return FileContent::indices;
+  if (extension == ".pbm" && format.color_bits == 1) return FileContent::one_bit;
+  return FileContent::picture;
 }
 
 /// The mode of a scene, or one of square pixels.
@@ -87,6 +90,11 @@ VideoMode scene_video_mode(const Scene& scene) {
 void keep_buffers(bool all, bool packed_colors, Frame& frame) {
   if (all) frame.keep({Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation});
   else if (packed_colors) frame.keep({Buffer::color});
+}
+
+std::size_t pixel_count(const Scene& scene) {
+  return static_cast<std::size_t>(scene.framebuffer.width) *
+         static_cast<std::size_t>(scene.framebuffer.height);
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -124,14 +132,6 @@ int report_difference(const Picture& picture, const Picture& reference, const Re
 
 /// Refuses contradictory outputs before anything is rendered.
 void check_outputs(const RenderRequest& request, const std::string& path) {
-  const auto require_frame = [&](const std::string& name) {
-    if (request.frames > 1 && name.find("{frame}") == std::string::npos)
-      throw Error("--frames " + std::to_string(request.frames) + " would overwrite \"" + name +
-                  "\" with every frame; put {frame} into the name");
-  };
-  if (!is_stream(path)) require_frame(path);
-  if (!request.dump.empty()) require_frame(request.dump);
-  if (!request.planes_folder.empty()) require_frame(request.planes_folder);
   std::vector<std::string> stdout_users;
   if (is_stream(path)) stdout_users.emplace_back("the picture");
   if (request.explain) stdout_users.emplace_back("--explain");
@@ -149,19 +149,21 @@ void check_outputs(const RenderRequest& request, const std::string& path) {
   }
 }
 
+/// Reads the content of a picture's file.
 /// @param shown  the screen that shows the picture; null: the picture is written itself
-void write_frame(const RenderRequest& request, const Scene& scene, const Picture& picture,
-                 const ShownPictures* shown, const SceneBuffers& buffers, const std::string& file,
-                 int frame) {
+FinishedPicture finished_picture(const std::shared_ptr<Picture>& picture, const ShownPictures* shown,
+                                 const FrameBuffer& buffer, FileContent content) {
+  if (shown != nullptr)
+    return {.picture = std::make_shared<Picture>(shown->image()), .light = shown->light()};
+  FinishedPicture finished{.picture = picture};
+  if (content == FileContent::indices) finished.indexed = indexed_picture(buffer);
+  if (content == FileContent::one_bit) finished.one_bit = screen_picture(buffer, {});
+  return finished;
+}
+
+/// Writes the planes and the memory of a frame.
+void write_buffers(const RenderRequest& request, const Scene& scene, const SceneBuffers& buffers, int frame) {
   const auto path_of = [&](const std::string& name) { return frame_path(name, frame, request.frames); };
-  const int compression = request.output.compression;
-  const FrameBufferFormat& format = buffers.shown().format();
-  if (shown != nullptr) shown->write(file, compression);
-  else if (is_indexed_png(format, file))
-    write_indexed_png(indexed_picture(buffers.shown()), file, compression);
-  else if (is_one_bit_pbm(format, file))
-    write_file_atomically(file, encode_pbm(screen_picture(buffers.shown(), {})));
-  else write_output(picture, file, compression);
   if (!request.planes_folder.empty()) write_planes(buffers, path_of(request.planes_folder));
   if (!request.dump.empty()) write_memory_dump(buffers.shown(), *scene.mode, path_of(request.dump));
 }
@@ -176,6 +178,7 @@ int render(RenderRequest request) {
   RunStats run;
   run.load_ms = milliseconds_since(start);
 
+  const bool is_named = !request.output.path.empty();
   const std::string path = output_path(request);
   check_outputs(request, path);
   if (!request.dump.empty() && !input.scene().mode)
@@ -209,7 +212,12 @@ int render(RenderRequest request) {
 
   label = "choosing the palette";
   FramePalettes palettes(input, request.frames, renderer);
+  const bool may_be_indexed =
+      !is_animated_png(path, request.frames) || frames_share_palette(input, request.frames);
   const bool is_transparent = request.overrides.background && request.overrides.background->a == 0;
+  request.output.path = path;
+  PictureOutput output(request.output, request.frames, run.options.threads,
+                       shown ? shown->image().rgba.size() / 4 : pixel_count(input.scene()));
   int exit_code = 0;
   for (int f = 0; f < request.frames; ++f) {
     const bool is_last = f + 1 == request.frames;
@@ -220,11 +228,11 @@ int render(RenderRequest request) {
     SceneBuffers buffers(scene);
     if (const auto palette = palettes.next(scene, renderer)) buffers.shown().set_palette(*palette);
     Frame frame(buffers.drawn, renderer);
-    Picture picture(scene.framebuffer.width, scene.framebuffer.height);
-    picture.keeps_alpha = is_transparent;
-    const FrameBufferFormat& format = buffers.shown().format();
-    const bool writes_bits = !shown && (is_indexed_png(format, path) || is_one_bit_pbm(format, path));
-    const bool reads_colors = !scene.reduced && (writes_bits || !request.dump.empty());
+    const auto picture = output.spare_picture(scene.framebuffer.width, scene.framebuffer.height);
+    picture->keeps_alpha = is_transparent;
+    const FileContent content =
+        shown ? FileContent::picture : file_content(buffers.shown().format(), path, may_be_indexed);
+    const bool reads_colors = !scene.reduced && (content != FileContent::picture || !request.dump.empty());
     if (request.explain && f == 0) {
       record(scene, frame);
       std::cout << explanation_text(scene, frame);
@@ -234,24 +242,27 @@ int render(RenderRequest request) {
       const auto render_start = std::chrono::steady_clock::now();
       record(scene, frame);
       keep_buffers(!request.planes_folder.empty(), reads_colors, frame);
-      run.frame = renderer.finish(frame, picture.target());
-      if (buffers.reduced) reduce_picture(renderer, picture, *buffers.reduced);
-      if (is_transparent) divide_by_alpha(picture);
+      run.frame = renderer.finish(frame, picture->target());
+      if (buffers.reduced) reduce_picture(renderer, *picture, *buffers.reduced);
+      if (is_transparent) divide_by_alpha(*picture);
       run.render_ms.push_back(milliseconds_since(render_start));
     }
     progress.clear();
-    if (shown) shown->show(picture);
+    if (shown) shown->show(*picture);
     const auto write_start = std::chrono::steady_clock::now();
-    const std::string file = frame_path(path, f, request.frames);
-    write_frame(request, scene, picture, shown ? &*shown : nullptr, buffers, file, f);
+    const auto print_name = [&, file = frame_path(path, f, request.frames)] {
+      if (!is_named) std::cerr << "tessera: wrote " << printable(file) << "\n";
+    };
+    output.add(finished_picture(picture, shown ? &*shown : nullptr, buffers.shown(), content), f, print_name);
+    write_buffers(request, scene, buffers, f);
+    if (is_last) output.finish();
     run.write_ms += milliseconds_since(write_start);
     for (std::size_t i = 0; i < run.buffer_bytes.size(); ++i)
       run.buffer_bytes[i] = buffers.holding(kBuffers[i]).allocated_bytes(kBuffers[i]);
-    if (request.output.path.empty()) std::cerr << "tessera: wrote " << printable(file) << "\n";
     if (request.stats != StatsFormat::none && is_last)
       run.frame.fragments = count_fragments(scene, run.options);
     if (reference && is_last)
-      exit_code = report_difference(shown ? shown->image() : picture, *reference, request);
+      exit_code = report_difference(shown ? shown->image() : *picture, *reference, request);
   }
   if (request.stats == StatsFormat::text) std::cerr << stats_text(run);
   if (request.stats == StatsFormat::json) std::cout << stats_json(run);

@@ -33,6 +33,8 @@ class ShownPictures {
   void show(const Picture& picture);
   /// The image of the picture that was shown last.
   const Picture& image() const { return image_; }
+  /// Its light, r g b per pixel; empty unless the file receives it.
+  const std::vector<float>& light() const { return light_; }
   /// Writes that image, for .pfm its light.
   void write(const std::string& path, int compression) const;
   /// Mean light of a white picture in the image; see Screen::white_level().

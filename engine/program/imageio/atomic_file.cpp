@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include <unistd.h>
 
@@ -15,16 +16,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
   throw Error("cannot write \"" + path + "\": " + reason);
-}
-
-void write_directly(const std::string& path, const std::string& shown_path, std::string_view content) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (file == nullptr) fail(shown_path, std::strerror(errno));
-  const bool is_written =
-      std::fwrite(content.data(), 1, content.size(), file) == content.size() && std::fflush(file) == 0;
-  const int reason = errno;
-  const bool is_closed = std::fclose(file) == 0;
-  if (!is_written || !is_closed) fail(shown_path, std::strerror(is_written ? errno : reason));
 }
 
 fs::path folder_of(const fs::path& file) {
@@ -58,24 +49,42 @@ std::optional<fs::path> require_writable(const std::string& path) {
   return fs::canonical(folder) / target.filename();
 }
 
-void write_file_atomically(const std::string& path, std::string_view content) {
-  const std::optional<fs::path> target = require_writable(path);
-  if (!target) return write_directly(path, path, content);
-
-  std::error_code error;
-  std::string name = ".";
-  name += target->filename().string() + ".part-" + std::to_string(::getpid());
-  const std::string temporary = (folder_of(*target) / name).string();
-  try {
-    write_directly(temporary, path, content);
-    fs::rename(temporary, *target);
-  } catch (const fs::filesystem_error& failure) {
-    fs::remove(temporary, error);
-    fail(path, failure.code().message());
-  } catch (...) {
-    fs::remove(temporary, error);
-    throw;
+AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(require_writable(path)) {
+  std::string opened = path;
+  if (target_) {
+    std::string name = ".";
+    name += target_->filename().string() + ".part-" + std::to_string(::getpid());
+    temporary_ = folder_of(*target_) / name;
+    opened = temporary_.string();
   }
+  file_ = std::fopen(opened.c_str(), "wb");
+  if (file_ == nullptr) fail(path_, std::strerror(errno));
+}
+
+AtomicFile::~AtomicFile() {
+  if (file_ != nullptr) std::fclose(file_);
+  std::error_code error;
+  if (!temporary_.empty()) fs::remove(temporary_, error);
+}
+
+void AtomicFile::write(std::string_view content) {
+  if (std::fwrite(content.data(), 1, content.size(), file_) != content.size() || std::fflush(file_) != 0)
+    fail(path_, std::strerror(errno));
+}
+
+void AtomicFile::commit() {
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(path_, std::strerror(errno));
+  if (temporary_.empty()) return;
+  std::error_code error;
+  fs::rename(temporary_, *target_, error);
+  if (error) fail(path_, error.message());
+  temporary_.clear();
+}
+
+void write_file_atomically(const std::string& path, std::string_view content) {
+  AtomicFile file(path);
+  file.write(content);
+  file.commit();
 }
 
 }  // namespace tessera::program

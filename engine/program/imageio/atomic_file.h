@@ -2,12 +2,37 @@
 // the old file as it was.
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace tessera::program {
+
+/// A file that appears when it is complete. Without commit() nothing is left behind.
+/// - Devices, pipes and open files (/dev/stdout) are written to directly.
+/// - Errors name the path and the reason.
+class AtomicFile {
+ public:
+  /// @throws Error if the file cannot be written
+  explicit AtomicFile(const std::string& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// @throws Error
+  void write(std::string_view content);
+  /// Closes the file and gives it its name.
+  /// @throws Error
+  void commit();
+
+ private:
+  std::string path_;
+  std::optional<std::filesystem::path> target_;  ///< file that is replaced or created
+  std::filesystem::path temporary_;              ///< empty: written to directly
+  std::FILE* file_ = nullptr;
+};
 
 /// Replaces or creates a file.
 /// - A symbolic link stays; the file it leads to is replaced, with default permissions.

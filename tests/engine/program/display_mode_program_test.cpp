@@ -69,7 +69,7 @@ TEST_F(DisplayModeProgram, RefusesWrongDisplayModes) {
       {"--reduce", 1, "--mode"},
       {"--dump x.bin", 1, "--dump writes the memory of a display mode"},
       {"--mode cga --dump a.png", 1, "the picture and --dump are both \"a.png\""},
-      {"--mode cga --frames 2 --dump x.bin -o 'y_{frame}.png'", 1, "put {frame} into the name"},
+      {"--mode cga --frames 2 --dump x.bin -o 'y_{frame}.png'", 2, "put {frame} into the name"},
   };
   for (const auto& row : kBad) {
     const Result result = run("render -o a.png " + std::string(row.arguments));

@@ -128,7 +128,7 @@ TEST_F(ModelOptions, TurntablesCloseTheCircle) {
   for (std::size_t f = 0; f < 4; ++f)
     EXPECT_EQ(read_picture(path("h_000" + std::to_string(f) + ".png")).rgba, frames[2 * f]) << f;
   expect_one_error(kBunny + " --turntable 8 --frames 3 -o 'x_{frame}.png'", 2, "--turntable");
-  expect_one_error(kBunny + " --turntable 8 -o x.png", 1, "{frame}");
+  expect_one_error(kBunny + " --turntable 8 -o x.ppm", 2, "{frame}");
 }
 
 TEST_F(ModelOptions, ScenesTurnLikeModels) {
