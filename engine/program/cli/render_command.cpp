@@ -14,6 +14,7 @@
 #include "engine/program/cli/explain_command.h"
 #include "engine/program/cli/file_guard.h"
 #include "engine/program/cli/frame_palettes.h"
+#include "engine/program/cli/freed_memory.h"
 #include "engine/program/cli/indexed_frame.h"
 #include "engine/program/cli/memory_dump.h"
 #include "engine/program/cli/picture_output.h"
@@ -207,6 +208,7 @@ int render(RenderRequest request) {
       progress.clear();
       print_log(min_level, level, message);
     };
+  if (request.frames > 1) keep_freed_memory();
   Renderer renderer(request.options);
   run.options = renderer.options();
 
