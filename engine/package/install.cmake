@@ -61,14 +61,21 @@ if(TARGET tessera_cli AND NOT CMAKE_CROSSCOMPILING)
       install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/tessera COMPONENT program)
     endif()
   endforeach()
-  # The program prints its manual page and its completions.
+  # The program prints its manual page and its completions. The options of tessera bench, price and accuracy are
+  # those that their programs describe.
+  set(measurements)
+  foreach(program tessera_bench tessera_accuracy)
+    if(TARGET ${program})
+      list(APPEND measurements ${program})
+    endif()
+  endforeach()
   foreach(page "man:tessera.1" "completion bash:completion.bash" "completion zsh:completion.zsh"
           "completion fish:completion.fish")
     string(REGEX REPLACE ":.*" "" arguments "${page}")
     string(REGEX REPLACE ".*:" "" file "${page}")
     add_custom_command(OUTPUT ${built_dir}/${file}
       COMMAND sh -c "'$<TARGET_FILE:tessera_cli>' ${arguments} > '${built_dir}/${file}'"
-      DEPENDS tessera_cli VERBATIM)
+      DEPENDS tessera_cli ${measurements} VERBATIM)
     list(APPEND pages ${built_dir}/${file})
   endforeach()
   add_custom_target(tessera_pages ALL DEPENDS ${pages})

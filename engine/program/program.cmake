@@ -78,6 +78,9 @@ add_custom_command(OUTPUT ${tessera_gallery}
   DEPENDS ${program_dir}/cli/embed_gallery.cmake ${gallery_files}
   COMMENT "Embedding the gallery" VERBATIM)
 
+# Shared with tessera-bench and tessera-accuracy.
+set(tessera_command_line_sources command_docs.cpp command_line.cpp given_options.cpp help_text.cpp validators.cpp)
+list(TRANSFORM tessera_command_line_sources PREPEND ${program_dir}/cli/)
 file(GLOB tessera_cli_sources CONFIGURE_DEPENDS ${program_dir}/cli/*.cpp)
 add_executable(tessera_cli ${tessera_cli_sources} ${tessera_selftest} ${tessera_gallery})
 target_link_libraries(tessera_cli PRIVATE

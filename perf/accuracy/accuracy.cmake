@@ -14,7 +14,7 @@ add_custom_command(OUTPUT ${tessera_report_files}
 file(GLOB tessera_accuracy_sources CONFIGURE_DEPENDS ${accuracy_dir}/*.cpp)
 list(REMOVE_ITEM tessera_accuracy_sources ${accuracy_dir}/main.cpp)
 list(APPEND tessera_accuracy_sources ${tessera_report_files}
-  engine/program/cli/progress.cpp engine/program/cli/machine_text.cpp perf/bench/statistics.cpp perf/bench/counters.cpp)
+  engine/program/cli/progress.cpp engine/program/cli/machine_text.cpp ${tessera_command_line_sources} perf/bench/statistics.cpp perf/bench/counters.cpp)
 add_library(tessera_accuracy_parts OBJECT ${tessera_accuracy_sources})
 add_executable(tessera_accuracy perf/accuracy/main.cpp $<TARGET_OBJECTS:tessera_accuracy_parts>)
 foreach(target tessera_accuracy_parts tessera_accuracy)

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "engine/program/import/model.h"
 #include "engine/program/scene/embedded.h"
 #include "engine/program/scene/model_scene.h"
+#include "engine/program/scene/text_file.h"
 #include "perf/accuracy/reference_scene.h"
 #include "tests/reference/builtin_meshes.h"
 
@@ -46,19 +45,11 @@ std::string unique_name(const std::string& path, std::set<std::string>& names) {
   return unique;
 }
 
-std::string text_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw Error("cannot read \"" + path + "\"");
-  return text.str();
-}
-
 AccuracyInput input_of_file(const std::string& path, const std::string& name) {
   if (fs::path(path).extension() == ".json") {
     const std::string folder = fs::path(path).parent_path().string();
     AccuracyInput input =
-        input_of({.name = name, .title = path, .json = text_of_file(path), .folder = folder});
+        input_of({.name = name, .title = path, .json = program::read_text_file(path), .folder = folder});
     if (!input.scene.title.empty()) input.title = input.scene.title;
     return input;
   }

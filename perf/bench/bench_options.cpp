@@ -1,13 +1,16 @@
 #include "perf/bench/bench_options.h"
 
 #include <charconv>
-#include <initializer_list>
 #include <limits>
 #include <string_view>
 #include <type_traits>
 
+#include "engine/program/cli/given_options.h"
+
 namespace tessera::bench {
 namespace {
+
+using program::cli::GivenOptions;
 
 /// Parses the whole text as a number from `min` to `max`. NaN is out of range.
 template <class Number>
@@ -86,11 +89,11 @@ bool parse_instruction_set(std::string_view text, InstructionSet& instruction_se
 
 void add_renderer_options(CLI::App& program, BenchOptions& options) {
   add_text(
-      program, "--size", "WIDTHxHEIGHT", "size of the frames; default: 1920x1080",
+      program, "--size", "WIDTHxHEIGHT", "size of the frames in pixels, each 1 to 16384; default: 1920x1080",
       [&options](const std::string& text) { return parse_size(text, options); },
       ", each 1 to " + std::to_string(kMaxFrameBufferSize));
-  add_integer(program, "--threads", "number of threads; default: TESSERA_THREADS, or all cores", 1024,
-              options.renderer.threads)
+  add_integer(program, "--threads", "number of threads, 1 to 1024; default: TESSERA_THREADS, or all cores",
+              1024, options.renderer.threads)
       ->envname("TESSERA_THREADS");
   add_text(
       program, "--cores", "N[,N...]", "logical CPUs to bind the process to; default: all",
@@ -123,54 +126,85 @@ void add_measurement_options(CLI::App& program, BenchOptions& options) {
 
 /// Options that select another measurement than rows of single workloads.
 void add_mode_options(CLI::App& program, BenchOptions& options) {
-  CLI::Option* const rivals = program.add_flag(
-      "--rivals", options.rivals, "compare with Mesa, in turns (needs the Debian package libosmesa6)");
+  program.add_flag("--rivals", options.rivals,
+                   "compare with Mesa, in turns (needs the Debian package libosmesa6)");
   add_text(program, "--driver", "llvmpipe|softpipe", "Mesa driver for --rivals; default: llvmpipe",
            [&options](const std::string& text) {
              options.driver =
                  text == "softpipe" ? rivals::MesaDriver::softpipe : rivals::MesaDriver::llvmpipe;
              return text == "llvmpipe" || text == "softpipe";
-           })
-      ->needs(rivals);
-  CLI::Option* const scaling = program.add_flag("--scaling", options.scaling,
-                                                "speed-up on more cores: measured up to --threads, "
-                                                "predicted for 2 to 128 from the cost of tasks");
+           });
+  program.add_flag("--scaling", options.scaling,
+                   "speed-up on more cores: measured up to --threads, "
+                   "predicted for 2 to 128 from the cost of tasks");
   add_integer(program, "--memory-cores", "cores that saturate memory bandwidth, for --scaling; default: 8",
-              1024, options.memory_cores)
-      ->needs(scaling);
+              1024, options.memory_cores);
   add_path(program, "--growth", "FILE",
-           "SVG plot of time and memory over triangles, pixels, lights and draws; nothing else is measured",
+           "SVG plot of time and memory over triangles, pixels, lights and draws; nothing else is measured; "
+           "default: none",
            options.growth_file);
   add_path(program, "--trace", "FILE",
            "trace of the tasks of one frame per workload, for chrome://tracing and ui.perfetto.dev; nothing "
-           "else is measured",
+           "else is measured; default: none",
            options.trace_file);
   add_path(program, "--heatmap", "FILE",
-           "picture of the cost of each tile of one workload; nothing else is measured",
+           "picture of the cost of each tile of one workload; nothing else is measured; default: none",
            options.heatmap_file);
 }
 
 void add_output_options(CLI::App& program, BenchOptions& options) {
-  add_path(program, "--json", "FILE", "all results as JSON; - is the standard output", options.json_file);
-  add_path(program, "--csv", "FILE", "one row per workload as CSV; - is the standard output",
+  add_path(program, "--json", "FILE",
+           "all results as JSON; - is the standard output; default: none is written", options.json_file);
+  add_path(program, "--csv", "FILE",
+           "one row per workload as CSV; - is the standard output; default: none is written",
            options.csv_file);
-  add_path(program, "--pictures", "DIR", "folder for the picture of each workload, WORKLOAD.png",
+  add_path(program, "--pictures", "DIR",
+           "folder for the picture of each workload, WORKLOAD.png; default: none is written",
            options.pictures_folder);
-  CLI::Option* const compare = add_path(program, "--compare", "FILE",
-                                        "earlier --json file: shows ratios to it; exits with 3 if a row "
-                                        "is slower by more than --allowed",
-                                        options.compare_file);
+  add_path(program, "--compare", "FILE",
+           "earlier --json file: shows ratios to it; exits with 3 if a row "
+           "is slower by more than --allowed; default: none",
+           options.compare_file);
   add_text(
       program, "--allowed", "SHARE", "share by which a row may be slower; default: 0.1 (10 %)",
       [&options](const std::string& text) { return parse_number(text, 0, 100, options.allowed); },
-      ", 0 to 100")
-      ->needs(compare);
+      ", 0 to 100");
 }
 
-void exclude(CLI::App& program, std::initializer_list<const char*> modes,
-             std::initializer_list<const char*> others) {
-  for (const char* mode : modes)
-    for (const char* other : others) program.get_option(mode)->excludes(program.get_option(other));
+/// Refuses options without effect.
+void check_use(const CLI::App& program, const BenchOptions& options) {
+  if (program.remaining_size() > 0) return;  // reported as unexpected
+  const GivenOptions given(program);
+  // TESSERA_THREADS counts as --threads.
+  if (options.list) return given.allow_only({"--list", "--threads"}, "has no effect with --list");
+  const bool grows = given.has("--growth");
+  const bool traces = given.has("--trace") || given.has("--heatmap");
+  // Rows of single workloads, which --csv, --pictures and --compare need.
+  const bool has_rows = !options.rivals && !options.scaling;
+  constexpr std::string_view kNoRows =
+      "has no effect with --rivals and --scaling, which measure no single workloads";
+  constexpr std::string_view kOwnFile =
+      "has no effect with --growth, --trace and --heatmap, which write to their own file only";
+  constexpr std::string_view kOneFrame = "has no effect with --trace and --heatmap, which draw one frame";
+  given.require({
+      {"--driver", options.rivals, "needs --rivals"},
+      {"--memory-cores", options.scaling, "needs --scaling"},
+      {"--allowed", given.has("--compare"), "needs --compare, the earlier results"},
+      {"--scaling", !options.rivals, "excludes --rivals"},
+      {"--csv", has_rows, kNoRows},
+      {"--pictures", has_rows, kNoRows},
+      {"--compare", has_rows, kNoRows},
+      {"--rivals", !grows && !traces, kOwnFile},
+      {"--scaling", !grows && !traces, kOwnFile},
+      {"--json", !grows && !traces, kOwnFile},
+      {"--csv", !grows && !traces, kOwnFile},
+      {"--pictures", !grows && !traces, kOwnFile},
+      {"--compare", !grows && !traces, kOwnFile},
+      {"--growth", !traces, "excludes --trace and --heatmap"},
+      {"workloads", !grows, "have no effect with --growth, which has its own"},
+      {"--repeats", !traces, kOneFrame},
+      {"--seconds", !traces, kOneFrame},
+  });
 }
 
 }  // namespace
@@ -182,13 +216,7 @@ void add_options(CLI::App& program, BenchOptions& options) {
   add_measurement_options(program, options);
   add_mode_options(program, options);
   add_output_options(program, options);
-  // These modes make no rows of single workloads, which --csv, --pictures and --compare need.
-  exclude(program, {"--rivals", "--scaling"}, {"--csv", "--pictures", "--compare"});
-  exclude(program, {"--rivals"}, {"--scaling"});
-  // These modes write to their own file only.
-  exclude(program, {"--growth", "--trace", "--heatmap"},
-          {"--rivals", "--scaling", "--json", "--csv", "--pictures", "--compare"});
-  exclude(program, {"--growth"}, {"--trace", "--heatmap", "workloads"});
+  program.parse_complete_callback([&program, &options] { check_use(program, options); });
 }
 
 }  // namespace tessera::bench

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/program/cli/command_line.h"
 #include "engine/program/cli/machine_text.h"
 #include "engine/program/cli/standard_output.h"
 #include "engine/program/imageio/atomic_file.h"
@@ -33,12 +34,10 @@ using namespace detail;
 using namespace program;
 namespace {
 
-// Exit codes.
-constexpr int kFailed = 1;
-constexpr int kBadUsage = 2;
-constexpr int kRegressed = 3;
+using cli::kDiffers;
+using cli::kFailed;
 
-constexpr const char* kExamples = R"(examples:
+constexpr const char* kExamples = R"(Examples:
   tessera bench                                   all workloads
   tessera bench fill grid-2M                      some of them
   tessera bench operation                         cost of fragment operations
@@ -281,7 +280,6 @@ int run(BenchOptions& options) {
     earlier->require_size(options.width, options.height);
   }
   const Selection selection = prepare_workloads(options.names);
-  if (options.growth_file.empty()) std::cerr << selection.skipped;
   if (earlier && !earlier->has_any_of(selection.entries))
     throw Error(options.compare_file + ": has none of the workloads to be measured, expected at least one");
   if (!options.heatmap_file.empty() && selection.entries.size() != 1)
@@ -289,6 +287,7 @@ int run(BenchOptions& options) {
         "--heatmap", "found " + std::to_string(selection.entries.size()) + " workloads, expected 1");
   require_outputs(options);
   if (!options.cores.empty()) bind_to_cores(options.cores);
+  if (options.growth_file.empty()) std::cerr << selection.skipped;
   if (options.renderer.threads == 0) options.renderer.threads = available_cores();
   if (!options.growth_file.empty()) {
     show_growth(options);
@@ -311,7 +310,7 @@ int run(BenchOptions& options) {
   if (!earlier) return 0;
   const BaselineComparison comparison = earlier->compare(bench.report(), options.allowed);
   (bench.is_silent() ? std::cerr : std::cout) << "\n" << comparison.table;
-  return comparison.has_regressed ? kRegressed : 0;
+  return comparison.has_regressed ? kDiffers : 0;
 }
 
 }  // namespace
@@ -319,29 +318,25 @@ int run(BenchOptions& options) {
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "price") return tessera::bench::price_main(argc - 1, argv + 1);
-  CLI::App program("Measures the cost of frames on this machine.", "tessera bench");
+  using namespace tessera::program;
+  CLI::App program("Measures the cost of frames on this machine", "tessera bench");
+  cli::set_help(program);
   program.footer(tessera::bench::kExamples);
   tessera::bench::BenchOptions options;
-  tessera::bench::add_options(program, options);
-  const auto run = [&] {
-    try {
-      program.parse(argc, argv);
-    } catch (const CLI::Success& success) {
-      return program.exit(success);  // --help
-    }
-    return tessera::bench::run(options);
-  };
   try {
-    const int code = run();
-    if (code == 0) tessera::program::cli::require_stdout_written();
+    tessera::bench::add_options(program, options);
+    const std::optional<int> done = cli::parse_arguments(program, argc, argv);
+    const int code = done ? *done : tessera::bench::run(options);
+    if (code == 0) cli::require_stdout_written();
     return code;
+  } catch (const cli::UsageError& error) {
+    return cli::report_usage("tessera bench", error.what(), "tessera bench");
   } catch (const CLI::ParseError& error) {
-    std::cerr << "tessera bench: error: " << error.what() << " (see tessera bench --help)\n";
-    return tessera::bench::kBadUsage;
+    return cli::report_usage("tessera bench", error.what(), "tessera bench");
   } catch (const std::bad_alloc&) {
     std::cerr << "tessera bench: error: out of memory\n";
   } catch (const std::exception& error) {
     std::cerr << "tessera bench: error: " << error.what() << "\n";
   }
-  return tessera::bench::kFailed;
+  return cli::kFailed;
 }

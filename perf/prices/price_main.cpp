@@ -9,8 +9,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/program/cli/command_line.h"
+#include "engine/program/cli/given_options.h"
 #include "engine/program/cli/scene_input.h"
 #include "engine/program/cli/standard_output.h"
+#include "engine/program/cli/validators.h"
 #include "engine/program/imageio/atomic_file.h"
 #include "perf/prices/measure_prices.h"
 #include "perf/prices/price_check.h"
@@ -22,7 +25,7 @@ namespace {
 
 using program::cli::write_to_stdout;
 
-constexpr const char* kExamples = R"(examples:
+constexpr const char* kExamples = R"(Examples:
   tessera price                                   all prices; about two minutes
   tessera price pixel vertex_spot                 some of them
   tessera price --json prices.json                as JSON
@@ -39,22 +42,37 @@ struct PriceOptions {
 
 constexpr int kCheckedWidth = 1280, kCheckedHeight = 960;
 
+/// Refuses options without effect.
+void check_use(const CLI::App& program, const PriceOptions& options) {
+  if (program.remaining_size() > 0) return;  // reported as unexpected
+  const program::cli::GivenOptions given(program);
+  if (options.list) return given.allow_only({"--list"}, "has no effect with --list");
+  const bool measures = options.checked.empty();
+  given.require({{"names", measures, "has no effect with --check, which measures what is missing"},
+                 {"--json", measures, "has no effect with --check, which writes no list"}});
+}
+
 void add_options(CLI::App& program, PriceOptions& options) {
   program.add_option("names", options.names, "codes of prices, or prefixes of them; default: all")
-      ->option_text("[NAME...]");
+      ->option_text("[PRICE...]");
   program.add_flag("--list", options.list, "list all prices and what they count");
-  program.add_option("--json", options.json_file, "write the list as JSON; - is the standard output")
-      ->option_text("FILE");
+  program
+      .add_option("--json", options.json_file,
+                  "write the list as JSON; - is the standard output; default: none is written")
+      ->option_text("FILE")
+      ->check(program::cli::not_empty("FILE's name"));
   program.add_option("--isa", options.instruction_set, "instruction set; default: the best of this machine")
       ->option_text("scalar|avx2|avx512");
-  program.add_option("--seconds", options.seconds, "seconds per price; default: 1")
+  program.add_option("--seconds", options.seconds, "seconds per price, 0.001 to 3600; default: 1")
       ->option_text("S")
-      ->check(CLI::Range(0.001, 3600.0));
+      ->check(program::cli::number_from(0.001, 3600));
   program
       .add_option("--check", options.checked,
                   "compare predicted with measured times of scenes and models at 1280x960, one thread; "
-                  "measures missing prices first")
-      ->option_text("FILE...");
+                  "measures missing prices first; default: nothing is checked")
+      ->option_text("FILE...")
+      ->check(program::cli::not_empty("a scene's or a model's name"));
+  program.parse_complete_callback([&program, &options] { check_use(program, options); });
 }
 
 InstructionSet instruction_set_of(const PriceOptions& options) {
@@ -138,28 +156,28 @@ int run(const PriceOptions& options) {
 }  // namespace
 
 int price_main(int argc, char** argv) {
-  constexpr int kFailed = 1, kBadUsage = 2;
-  CLI::App program("Measures what effects cost on this machine, in nanoseconds of one thread.",
+  namespace cli = program::cli;
+  CLI::App program("Measures what effects cost on this machine, in nanoseconds of one thread",
                    "tessera price");
+  cli::set_help(program);
   program.footer(kExamples);
   PriceOptions options;
-  add_options(program, options);
   try {
-    program.parse(argc, argv);
-    const int code = run(options);
-    program::cli::require_stdout_written();
+    add_options(program, options);
+    const std::optional<int> done = cli::parse_arguments(program, argc, argv);
+    const int code = done ? *done : run(options);
+    cli::require_stdout_written();
     return code;
-  } catch (const CLI::Success& success) {
-    return program.exit(success);  // --help
+  } catch (const cli::UsageError& error) {
+    return cli::report_usage("tessera price", error.what(), "tessera price");
   } catch (const CLI::ParseError& error) {
-    std::cerr << "tessera price: error: " << error.what() << " (see tessera price --help)\n";
-    return kBadUsage;
+    return cli::report_usage("tessera price", error.what(), "tessera price");
   } catch (const std::bad_alloc&) {
     std::cerr << "tessera price: error: out of memory\n";
   } catch (const std::exception& error) {
     std::cerr << "tessera price: error: " << error.what() << "\n";
   }
-  return kFailed;
+  return cli::kFailed;
 }
 
 }  // namespace tessera::bench

@@ -1,6 +1,7 @@
 #include "engine/program/cli/animation_options.h"
 
 #include "engine/program/cli/picture_output.h"
+#include "engine/program/cli/usage_error.h"
 #include "engine/program/cli/validators.h"
 
 namespace tessera::program::cli {
@@ -12,8 +13,8 @@ constexpr int kMaxFrames = 1000000;
 void require_frame_name(const RenderRequest& request, const std::string& option, const std::string& path,
                         const std::string& otherwise) {
   if (request.frames > 1 && !path.empty() && !names_frames(path))
-    throw CLI::ValidationError(option, std::to_string(request.frames) + " frames would overwrite \"" + path +
-                                           "\"; put {frame} into the name" + otherwise);
+    throw UsageError(option + ": " + std::to_string(request.frames) + " frames would overwrite \"" + path +
+                     "\"; put {frame} into the name" + otherwise);
 }
 
 }  // namespace
@@ -22,7 +23,7 @@ void add_animation(CLI::App& command, RenderRequest& request) {
   CLI::Option* const frames =
       command
           .add_option("--frames", request.frames,
-                      "pictures of an animation, t = 0 .. 1; {frame} in names is the number")
+                      "pictures of an animation, t = 0 .. 1; {frame} in names is the number; default: 1")
           ->option_text("N")
           ->transform(integer_from(1, kMaxFrames));
   const auto turn = [&request](int pictures) {
@@ -33,7 +34,7 @@ void add_animation(CLI::App& command, RenderRequest& request) {
       .add_option_function<int>(
           "--turntable", turn,
           "pictures of one turn of the scene around its vertical axis; after the last comes the first again; "
-          "{frame} in names is the number")
+          "{frame} in names is the number; default: no turn")
       ->option_text("N")
       ->transform(integer_from(1, kMaxFrames))
       ->excludes(frames);
@@ -52,8 +53,7 @@ void check_animation(const RenderRequest& request) {
   require_frame_name(request, "--dump", request.dump, "");
   require_frame_name(request, "--planes", request.planes_folder, "");
   if (request.output.delay_ms && !is_animation)
-    throw CLI::ValidationError("--delay",
-                               "is for animated PNG files: several frames, -o FILE.png without {frame}");
+    throw UsageError("--delay is for animated PNG files: several frames, -o FILE.png without {frame}");
 }
 
 }  // namespace tessera::program::cli

@@ -33,18 +33,26 @@ void add_choice(CLI::App& command, const std::string& option, Target& target,
   command.add_option_function<std::string>(option, set, text)->option_text(value_text)->check(one_of(names));
 }
 
-/// Adds an option whose text becomes `target` = parse(text). An Error of `parse` becomes a usage error.
-template <class Target, class Parse>
-CLI::Option* add_parsed(CLI::App& command, const std::string& option, Target& target, const Parse& parse,
-                        const std::string& text) {
-  const auto set = [option, &target, parse](const std::string& typed) {
+/// Adds an option whose text goes to take(text). An Error of `take` becomes a usage error.
+template <class Take>
+CLI::Option* add_text(CLI::App& command, const std::string& option, const Take& take,
+                      const std::string& text) {
+  const auto set = [option, take](const std::string& typed) {
     try {
-      target = parse(typed);
+      take(typed);
     } catch (const Error& error) {
       throw CLI::ValidationError(option, error.what());
     }
   };
   return command.add_option_function<std::string>(option, set, text);
+}
+
+/// Adds an option whose text becomes `target` = parse(text). An Error of `parse` becomes a usage error.
+template <class Target, class Parse>
+CLI::Option* add_parsed(CLI::App& command, const std::string& option, Target& target, const Parse& parse,
+                        const std::string& text) {
+  return add_text(
+      command, option, [&target, parse](const std::string& typed) { target = parse(typed); }, text);
 }
 
 }  // namespace tessera::program::cli

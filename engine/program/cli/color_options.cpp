@@ -5,9 +5,11 @@
 
 #include <unistd.h>
 
+#include "engine/program/cli/choice_option.h"
 #include "engine/program/cli/color_space_choice.h"
 #include "engine/program/cli/color_values.h"
 #include "engine/program/cli/command_options.h"
+#include "engine/program/cli/given_options.h"
 #include "engine/program/cli/validators.h"
 #include "engine/tessera/types.hpp"
 
@@ -35,45 +37,35 @@ std::string spaces_help() {
   return text;
 }
 
-/// The result of parse(), with the errors of an option.
-template <class Parse>
-auto parsed(const std::string& option, const Parse& parse) {
-  try {
-    return parse();
-  } catch (const Error& error) {
-    throw CLI::ValidationError(option, error.what());
-  }
+void add_spaces(CLI::App& command, ColorRequest& request) {
+  add_parsed(command, "--from", request.from, parse_color_space,
+             "space of VALUES, one of those below; default: rgb")
+      ->option_text("SPACE");
+  add_parsed(
+      command, "--to", request.to, parse_color_space,
+      "space to convert to; no default. Spaces of R'G'B' (rgb to hitachi-9300) take another curve after a "
+      "colon: curve=srgb, bt709, bt1886, bt1886-1, linear or an exponent; and black=LIGHT, the light of "
+      "black over white's, for the BT.1886 curves")
+      ->option_text("SPACE");
 }
 
-void add_spaces(CLI::App& command, ColorRequest& request) {
-  const auto set_from = [&request](const std::string& typed) {
-    request.from = parsed("--from", [&] { return parse_color_space(typed); });
-  };
-  const auto set_to = [&request](const std::string& typed) {
-    request.to = parsed("--to", [&] { return parse_color_space(typed); });
-  };
-  command
-      .add_option_function<std::string>("--from", set_from,
-                                        "space of VALUES, one of those below; default: rgb")
-      ->option_text("SPACE");
-  command
-      .add_option_function<std::string>(
-          "--to", set_to,
-          "space to convert to. Spaces of R'G'B' (rgb to hitachi-9300) take another curve after a colon: "
-          "curve=srgb, bt709, bt1886, bt1886-1, linear or an exponent; and black=LIGHT, the light of black "
-          "over "
-          "white's, for the BT.1886 curves")
-      ->option_text("SPACE");
+std::vector<ColorValues> given_colors(const ColorRequest& request) {
+  try {
+    return parse_colors(request.words, request.from);
+  } catch (const Error& error) {
+    throw UsageError(std::string("VALUES: ") + error.what());
+  }
 }
 
 /// Fills in what depends on several options.
 void complete(const CLI::App& command, ColorRequest& request, bool adapts) {
-  if (command.remaining_size() > 0 || request.list) return;  // remaining words are reported as unexpected
+  if (command.remaining_size() > 0) return;  // reported as unexpected
+  if (request.list)
+    return GivenOptions(command).allow_only({"--list", "--json"}, "has no effect with --list");
   if (!request.to)
     throw CLI::ValidationError("--to", "found no space, expected one of " + color_space_names());
   if (adapts) request.from.space.adaptation = ChromaticAdaptation::bradford;
-  if (!request.words.empty())
-    request.given = parsed("VALUES", [&] { return parse_colors(request.words, request.from); });
+  if (!request.words.empty()) request.given = given_colors(request);
   else if (::isatty(STDIN_FILENO) != 0)
     throw CLI::ValidationError("VALUES",
                                "found no colours, expected 3 values per colour, or colours on the "
@@ -97,10 +89,9 @@ CLI::App* add_color(CLI::App& program, ColorRequest& request) {
   add_spaces(*command, request);
   const auto adaptation = std::make_shared<std::string>("none");
   command
-      ->add_option(
-          "--adapt", *adaptation,
-          "what happens to a white other than the target's: none (default) keeps its light, so that 9300 K "
-          "is bluish in rgb; bradford makes it the target's white")
+      ->add_option("--adapt", *adaptation,
+                   "what happens to a white other than the target's: none keeps its light, so that 9300 K is "
+                   "bluish in rgb; bradford makes it the target's white; default: none")
       ->option_text("none|bradford")
       ->check(one_of({"none", "bradford"}));
   command->add_flag("--list", request.list, "list the colour spaces with units, ranges and sources");

@@ -1,28 +1,43 @@
-// Generates shell completions and the manual page from a description of commands and options.
+// Descriptions of commands and their options, from which help, completions and the manual page are made.
 #pragma once
 
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace tessera::program::cli {
 
 struct OptionDoc {
-  std::vector<std::string> names;  ///< "-o", "--output"
+  std::vector<std::string> names;  ///< "-o", "--output"; empty for an operand
   std::string value;               ///< "FILE", "flat|gouraud|phong"; empty: a flag
   std::string text;
 };
 struct CommandDoc {
-  std::string name;  ///< empty: the program itself
+  std::string name;
   std::string text;
-  std::string examples;
+  std::string examples;  ///< lines; may begin with a heading
   std::vector<OptionDoc> options;
-  OptionDoc operand;  ///< has no names; an empty value means that there is no operand
+  std::vector<OptionDoc> operands;
 };
 
-/// Returns a completion script for "bash", "zsh" or "fish".
-std::string completion_script(const std::string& shell, const std::vector<CommandDoc>& commands);
+/// Describes a command. Hidden options are left out.
+CommandDoc doc_of(const CLI::App& command);
+/// Describes all commands of a program, in the order of its help.
+std::vector<CommandDoc> docs_of_commands(const CLI::App& program);
 
-/// Returns the manual page tessera(1) as roff.
-std::string man_page(const std::vector<CommandDoc>& commands, const std::string& version);
+/// A description as JSON, in which other programs of the package describe their commands.
+std::string doc_json(const CommandDoc& doc);
+/// @throws std::exception  for text that doc_json() does not write
+CommandDoc parse_doc(const std::string& json);
+
+/// "[=text|json]": the value is optional and must be attached by "=".
+bool has_optional_value(const OptionDoc& option);
+/// The value without the brackets of an optional one: "text|json".
+std::string plain_value(const OptionDoc& option);
+/// "-o, --output FILE", "--stats[=text|json]"; the value of an operand.
+std::string option_heading(const OptionDoc& option);
 
 }  // namespace tessera::program::cli

@@ -1,3 +1,4 @@
+// Options of `tessera render` and `tessera explain`.
 #include "engine/program/cli/command_options.h"
 
 #include <optional>
@@ -10,6 +11,7 @@
 #include "engine/program/cli/parse_overrides.h"
 #include "engine/program/cli/validators.h"
 #include "engine/program/scene/dither_names.h"
+#include "engine/program/scene/file_extension.h"
 #include "engine/program/scene/quality_names.h"
 #include "engine/program/scene/scene_mode.h"
 #include "engine/tessera/tessera.hpp"
@@ -35,16 +37,6 @@ constexpr const char* kExplainExamples = R"(Examples:
   tessera explain scene.json --measure --threads 1
   tessera explain truck.glb --json > effects.json)";
 
-constexpr const char* kCompareExamples = R"(Examples:
-  tessera compare before.png after.png
-  tessera compare before.png after.png --map errors.png
-  tessera compare before.png after.png --ppd 20 --json)";
-
-constexpr const char* kSelftestExamples = R"(Examples:
-  tessera selftest
-  tessera selftest --hashes > here.txt            on one machine
-  tessera selftest --expect here.txt              on another)";
-
 void add_input(CLI::App& command, std::string& input) {
   command.add_option("input", input, "scene or model; default: the built-in scene")
       ->option_text("[SCENE.json | MODEL]")
@@ -56,17 +48,9 @@ void add_input_format(CLI::App& command, RenderRequest& request) {
       .add_option(
           "--input-format", request.import.format,
           "format of the input -, standard input: json for a scene, or the extension of a model's file: "
-          "stl, glb, ...")
+          "stl, glb, ...; no default, the input - needs it")
       ->option_text("FORMAT")
       ->check(not_empty("FORMAT"));
-}
-
-void check_input_format(const RenderRequest& request) {
-  const bool is_stdin = request.input == "-";
-  if (is_stdin && request.import.format.empty())
-    throw CLI::ValidationError("--input-format", "found none, the input - needs one, such as stl");
-  if (!is_stdin && !request.import.format.empty())
-    throw CLI::ValidationError("--input-format", "is for the input -, standard input, alone");
 }
 
 void add_output(CLI::App& command, RenderRequest& request) {
@@ -81,7 +65,7 @@ void add_output(CLI::App& command, RenderRequest& request) {
       ->check(not_empty("FILE's name"));
   command
       .add_option("--compression", request.output.compression,
-                  "compression of PNG files: 0 (none) .. 9 (smallest); default: 3")
+                  "compression of PNG files, 0 (none) to 9 (smallest); default: 3")
       ->option_text("N")
       ->transform(integer_from(0, 9));
 }
@@ -91,21 +75,22 @@ void add_scene_overrides(CLI::App& command, SceneOverrides& overrides) {
   add_choice<std::optional<Shading>, Shading>(
       command, "--shading", overrides.shading,
       {{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}},
-      "shading of every draw");
+      "shading of every draw; default: the scene's");
   add_parsed(
       command, "--quality", overrides.quality, parse_quality,
       "caps on what draws ask for, in place of the scene's: shading (as_asked, phong_2x2, phong_4x4, "
       "gouraud, flat), renormalize (on, off), viewer (as_asked, infinite), interpolation (perspective, "
-      "affine), texture (as_asked, bilinear, nearest), light_threshold (0 to 1)")
+      "affine), texture (as_asked, bilinear, nearest), light_threshold (0 to 1); default: the scene's")
       ->option_text("KEY=VALUE,...");
-  command.add_option("--color-bits", overrides.color_bits, "colour planes: 1 .. 24")
+  command
+      .add_option("--color-bits", overrides.color_bits, "colour planes, 1 to 24; default: the scene's, or 24")
       ->option_text("N")
       ->transform(integer_from(1, 24));
   command
       .add_option(
           "--palette", overrides.palette,
           "palette; the colour buffer then holds indices. adaptive: chosen for the picture at 24 bits; "
-          "ramps: chosen for the materials and lights")
+          "ramps: chosen for the materials and lights; default: the scene's, or none")
       ->option_text("bw|gray|ega16|vga256|web216|adaptive|ramps")
       ->check(one_of({"bw", "gray", "ega16", "vga256", "web216", "adaptive", "ramps"}));
   std::vector<Choice<Dither>> dithers;
@@ -126,8 +111,8 @@ void add_scene_overrides(CLI::App& command, SceneOverrides& overrides) {
 void add_mode(CLI::App& command, SceneOverrides& overrides) {
   add_parsed(command, "--mode", overrides.mode, named_display_mode,
              "display mode: size, colours and shape of the pixels; a name that tessera modes lists, with "
-             "parameters (cga:palette=0,background=1), or WIDTHxHEIGHTxBITS")
-      ->option_text("NAME");
+             "parameters (cga:palette=0,background=1), or WIDTHxHEIGHTxBITS; default: the scene's, or none")
+      ->option_text("MODE");
   command.add_flag("--reduce", overrides.reduce,
                    "draw at 24 bits and reduce the picture to the colours of the display mode");
 }
@@ -145,24 +130,16 @@ void add_dump(CLI::App& command, RenderRequest& request) {
       .add_option(
           "--dump", request.dump,
           "file for the memory of the display mode: .iff, .ilbm, .lbm (ILBM), .pcx, or any other name "
-          "for the bytes as the hardware had them")
+          "for the bytes as the hardware had them; default: none is written")
       ->option_text("FILE")
       ->check(not_empty("FILE's name"));
-}
-
-/// Options of the view need --display.
-void add_display_of(CLI::App& command, DisplayRequest& request) {
-  add_display_view(command, request);
-  CLI::Option* const display = command.get_option("--display");
-  for (const char* const option : {"--scale", "--part", "--gain", "--frame-ms"})
-    command.get_option(option)->needs(display);
 }
 
 void add_planes(CLI::App& command, RenderRequest& request) {
   command
       .add_option("--planes", request.planes_folder,
                   "folder for all planes of colour, depth, stencil and accumulation: color_00.pbm, ...; set "
-                  "bits are PBM's 1")
+                  "bits are PBM's 1; default: none is written")
       ->option_text("DIR")
       ->check(not_empty("DIR's name"));
 }
@@ -174,16 +151,10 @@ void add_drawing(CLI::App& command, SceneOverrides& overrides) {
                   "coverage samples per pixel: 1, 4 or 8; default: the scene's")
       ->option_text("N")
       ->check(one_of({"1", "4", "8"}));
-  command
-      .add_option_function<std::string>(
-          "--background",
-          [&overrides](const std::string& text) {
-            if (!parse_background(text, overrides))
-              throw CLI::ValidationError(
-                  "--background", "found \"" + text + "\", expected none, #RRGGBB, or R,G,B, each 0 to 1");
-          },
-          "colour of the background, in place of the scene's; none: transparent, the picture gets alpha "
-          "(.png, .tif, ...)")
+  add_text(
+      command, "--background", [&overrides](const std::string& text) { parse_background(text, overrides); },
+      "colour of the background: #RRGGBB, or R,G,B, each 0 to 1; none: transparent, the picture gets alpha "
+      "(.png, .tif, ...); default: the scene's")
       ->option_text("none|COLOR");
   command.add_flag("--wireframe", overrides.wireframe, "draw the edges of polygons");
   add_choice<UpAxis, UpAxis>(command, "--up", overrides.up,
@@ -197,7 +168,9 @@ void add_drawing(CLI::App& command, SceneOverrides& overrides) {
 }
 
 void add_repetition(CLI::App& command, RenderRequest& request) {
-  command.add_option("--repeat", request.repeat, "render each picture N times; --stats shows the median")
+  command
+      .add_option("--repeat", request.repeat,
+                  "render each picture N times; --stats shows the median; default: 1")
       ->option_text("N")
       ->transform(integer_from(1, 1000000));
 }
@@ -205,7 +178,7 @@ void add_repetition(CLI::App& command, RenderRequest& request) {
 void add_comparison(CLI::App& command, RenderRequest& request) {
   command
       .add_option("--compare", request.reference,
-                  "reference for the last frame; exits with 3 if the frame differs")
+                  "reference for the last frame; exits with 3 if the frame differs; default: none")
       ->option_text("FILE")
       ->check(not_empty("FILE's name"));
   command
@@ -247,10 +220,40 @@ void add_reports(CLI::App& command, RenderRequest& request) {
   add_choice<std::optional<LogLevel>, LogLevel>(
       command, "--log", request.log,
       {{"debug", LogLevel::debug}, {"info", LogLevel::info}, {"warning", LogLevel::warning}},
-      "print the library's log messages on stderr");
+      "print the library's log messages of this level and above on stderr; default: none");
+}
+
+/// Refuses options of `render` that have no effect, as far as the command line tells.
+void check_render_options(const RenderRequest& request) {
+  const bool is_stdin = request.input == "-";
+  if (is_stdin && request.import.format.empty())
+    throw UsageError("--input-format: found none, the input - needs one, such as stl");
+  const bool has_display = request.display.display.has_value();
+  const bool has_several = request.frames > 1;
+  const std::string& file = request.output.path;
+  const bool is_png = file.empty() || lower_case_extension(file) == ".png";
+  request.given.require({
+      {"--input-format", is_stdin, "is for the input -, standard input, alone"},
+      {"--compression", is_png, "is for PNG files, and the picture is none"},
+      {"--turntable", has_several, "needs at least 2 pictures, one alone shows no turn"},
+      {"--palette-over", has_several, "needs --frames or --turntable with more than one picture"},
+      {"--scale", has_display, "needs --display"},
+      {"--part", has_display, "needs --display"},
+      {"--gain", has_display, "needs --display"},
+      {"--frame-ms", has_display, "needs --display"},
+      {"--frame-ms", has_several, "needs --frames or --turntable with more than one picture"},
+      {"--threshold", request.given.has("--compare"), "needs --compare, the reference"},
+  });
+  check_import_options(request.given, request.input);
 }
 
 }  // namespace
+
+void check_import_options(const GivenOptions& given, const std::string& input) {
+  const bool has_input = !input.empty();
+  given.require({{"--import-memory", has_input, "limits reading a model, and the built-in scene has none"},
+                 {"--import-seconds", has_input, "limits reading a model, and the built-in scene has none"}});
+}
 
 void add_import_limits(CLI::App& command, ImportRequest& request) {
   command
@@ -280,7 +283,7 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   add_scene_overrides(*command, request.overrides);
   add_mode(*command, request.overrides);
   add_palette_over(*command, request.overrides);
-  add_display_of(*command, request.display);
+  add_display_view(*command, request.display);
   add_dump(*command, request);
   add_planes(*command, request);
   add_view(*command, request.overrides);
@@ -290,8 +293,10 @@ CLI::App* add_render(CLI::App& program, RenderRequest& request) {
   add_comparison(*command, request);
   add_renderer_options(*command, request.options);
   add_reports(*command, request);
-  command->parse_complete_callback([&request] {
-    check_input_format(request);
+  command->parse_complete_callback([command, &request] {
+    if (command->remaining_size() > 0) return;  // reported as unexpected
+    request.given = GivenOptions(*command);
+    check_render_options(request);
     check_animation(request);
   });
   return command;
@@ -308,71 +313,19 @@ CLI::App* add_explain(CLI::App& program, ExplainRequest& request) {
   add_mode(*command, request.overrides);
   add_view(*command, request.overrides);
   command->add_flag("--json", request.json, "print JSON, with stable codes for effects and reasons");
-  CLI::Option* const measure = command->add_flag(
-      "--measure", request.measure,
-      "also render the scene and print the time of each draw, and for each effect the share "
-      "of batches, tiles and pixels for which it was left out");
+  command->add_flag("--measure", request.measure,
+                    "also render the scene and print the time of each draw, and for each effect the share "
+                    "of batches, tiles and pixels for which it was left out");
   command
       ->add_option("--threads", request.threads,
                    "threads of --measure; default: TESSERA_THREADS, or all cores")
       ->option_text("N")
-      ->transform(integer_from(1, 1024))
-      ->needs(measure);
-  return command;
-}
-
-CLI::App* add_compare(CLI::App& program, CompareRequest& request) {
-  CLI::App* command = program.add_subcommand(
-      "compare",
-      "Compare two pictures: largest error, RMS, PSNR, shares of wrong pixels, and FLIP, which predicts how "
-      "visible the differences are");
-  command->footer(kCompareExamples);
-  command->option_defaults()->take_last();
-  for (std::size_t i = 0; i < request.pictures.size(); ++i)
-    command->add_option(i == 0 ? "A" : "B", request.pictures[i], "picture of the same size as the other")
-        ->option_text("FILE")
-        ->required()
-        ->check(not_empty("a picture's name"));
-  command
-      ->add_option("--ppd", request.pixels_per_degree,
-                   "pixels per degree of the viewer's visual angle, 1 .. 1000, for FLIP; default: 67.02, a "
-                   "monitor 0.7 m wide with 3840 pixels per row, seen from 0.7 m")
-      ->option_text("N")
-      ->check(number_from(kMinPixelsPerDegree, kMaxPixelsPerDegree));
-  command
-      ->add_option("--map", request.map,
-                   "picture to write: the FLIP error of each pixel, from black (0) over purple and orange to "
-                   "pale yellow (1)")
-      ->option_text("FILE")
-      ->check(not_empty("FILE's name"));
-  command->add_flag("--json", request.json, "print JSON");
-  command->add_option("--threads", request.threads, "threads; default: TESSERA_THREADS, or all cores")
-      ->option_text("N")
       ->transform(integer_from(1, 1024));
-  return command;
-}
-
-CLI::App* add_selftest(CLI::App& program, SelftestRequest& request) {
-  CLI::App* command = program.add_subcommand(
-      "selftest", "Check that this machine renders scenes and exact cases correctly, in every configuration");
-  command->footer(kSelftestExamples);
-  command->option_defaults()->take_last();
-  command
-      ->add_option("--expect", request.expected,
-                   "expected hashes of the scenes, from another machine or version; default: those of this "
-                   "version")
-      ->option_text("FILE")
-      ->check(not_empty("FILE's name"));
-  command->add_flag("--hashes", request.hashes,
-                    "only print the hashes of the scenes on this machine, in the format of --expect");
-  command
-      ->add_option("--threads", request.threads,
-                   "number of threads to compare with one; default: TESSERA_THREADS, or all cores")
-      ->option_text("N")
-      ->transform(integer_from(1, 1024));
-  command->parse_complete_callback([&request] {
-    if (request.hashes && !request.expected.empty())
-      throw CLI::ValidationError("--hashes", "prints hashes without comparing, excludes --expect");
+  command->parse_complete_callback([command, &request] {
+    if (command->remaining_size() > 0) return;  // reported as unexpected
+    request.given = GivenOptions(*command);
+    request.given.require({{"--threads", request.measure, "needs --measure"}});
+    check_import_options(request.given, request.input);
   });
   return command;
 }

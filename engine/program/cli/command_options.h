@@ -29,6 +29,10 @@ CLI::App* add_selftest(CLI::App& program, SelftestRequest& request);
 
 /// Adds --import-memory and --import-seconds to a command.
 void add_import_limits(CLI::App& command, ImportRequest& request);
+/// Refuses these options for the built-in scene.
+/// @param input  empty: the built-in scene
+/// @throws UsageError
+void check_import_options(const GivenOptions& given, const std::string& input);
 
 /// Adds --size to a command.
 void add_size(CLI::App& command, SceneOverrides& overrides);

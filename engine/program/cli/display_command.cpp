@@ -8,6 +8,7 @@
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/progress.h"
 #include "engine/program/cli/shown_pictures.h"
+#include "engine/program/cli/usage_error.h"
 #include "engine/program/imageio/atomic_file.h"
 #include "engine/program/imageio/float_picture.h"
 
@@ -22,8 +23,8 @@ int frame_count(const DisplayCommandRequest& request) { return static_cast<int>(
 void check_file(const std::string& path, const std::string& option, const DisplayCommandRequest& request) {
   const int frames = frame_count(request);
   if (frames > 1 && path.find("{frame}") == std::string::npos)
-    throw Error(std::to_string(frames) + " pictures would overwrite \"" + path +
-                "\" with every frame; put {frame} into the name");
+    throw UsageError(std::to_string(frames) + " pictures would overwrite \"" + path +
+                     "\" with every frame; put {frame} into the name");
   for (int f = 0; f < frames; ++f)
     for (const std::string& picture : request.pictures)
       refuse_overwriting(frame_path(path, f, frames), picture, "input", option);
@@ -35,7 +36,7 @@ void check_outputs(const DisplayCommandRequest& request) {
   if (!is_stream(request.output.path)) check_file(request.output.path, "-o", request);
   if (!request.signal.empty()) check_file(request.signal, "--signal", request);
   if (request.signal == request.output.path)
-    throw Error("the image and --signal are both \"" + request.signal + "\"");
+    throw UsageError("the image and --signal are both \"" + request.signal + "\"");
 }
 
 /// Writes the lines of the frame that begins with a picture; with S-Video those of luma, then of chroma.

@@ -5,9 +5,11 @@
 
 #include "engine/program/cli/choice_option.h"
 #include "engine/program/cli/command_options.h"
+#include "engine/program/cli/given_options.h"
 #include "engine/program/cli/output.h"
 #include "engine/program/cli/parse_overrides.h"
 #include "engine/program/cli/printable.h"
+#include "engine/program/cli/shown_pictures.h"
 #include "engine/program/cli/validators.h"
 #include "engine/program/scene/file_extension.h"
 #include "engine/program/scene/scene_mode.h"
@@ -19,7 +21,7 @@ constexpr const char* kDisplayExamples = R"(Examples:
   tessera display picture.png --display vga14 -o screen.png        on a VGA monitor of 14 inches
   tessera display cga.png --mode cga --display cga -o tube.png     on the monitor of a CGA
   tessera display a.png --display crt:pitch=0.31,mask=slots --part 100,80,12,9 --scale 100 -o near.png
-  tessera display f*.png --display lcd-laptop -o 'lcd_{frame}.png' frames in order
+  tessera display f*.png --display lcd-laptop -o 'lcd_{frame}.png'  frames in order
   tessera display p.png --mode cga-hi --display cga-composite -o artifacts.png --signal lines.pfm
   tessera display --presets -o screens            the teapot on all presets, with a contact sheet
   tessera display --presets truck.glb --near 0.7,0.4 -o screens
@@ -28,26 +30,20 @@ constexpr const char* kDisplayExamples = R"(Examples:
 void add_display_name(CLI::App& command, DisplayRequest& request) {
   add_parsed(command, "--display", request.display, named_display,
              "display that shows the picture: a kind (crt, lcd, plasma, eink, ntsc, pal) or a preset, with "
-             "parameters (crt:pitch=0.31,mask=grille); tessera display --list has all")
-      ->option_text("NAME[:KEY=VALUE,...]");
+             "parameters (crt:pitch=0.31,mask=grille); tessera display --list has all; no default")
+      ->option_text("DISPLAY[:KEY=VALUE,...]");
 }
 
 void add_view(CLI::App& command, DisplayRequest& request) {
   command
-      .add_option("--scale", request.view.scale_px_per_mm,
-                  "pixels of the image per millimetre of the screen; default: 1440 rows")
+      .add_option(
+          "--scale", request.view.scale_px_per_mm,
+          "pixels of the image per millimetre of the screen, up to 1000; default: as many as give 1440 rows")
       ->option_text("PX_PER_MM")
       ->check(positive_number());
-  command
-      .add_option_function<std::string>(
-          "--part",
-          [&request](const std::string& text) {
-            if (!parse_part(text, request.view))
-              throw CLI::ValidationError("--part", "found \"" + text +
-                                                       "\", expected X,Y,W,H in millimetres: the upper left "
-                                                       "corner, at least 0, and a size above 0");
-          },
-          "part of the screen in millimetres from its upper left corner; default: all of it")
+  add_text(
+      command, "--part", [&request](const std::string& text) { parse_part(text, request.view); },
+      "part of the screen in millimetres from its upper left corner; default: all of it")
       ->option_text("X,Y,W,H");
   command
       .add_option(
@@ -77,25 +73,26 @@ void add_pictures(CLI::App& command, DisplayCommandRequest& request) {
           "-o,--output", request.output.path,
           "image to write: .png, .ppm, ... as for render; .pfm receives linear light (BT.709); {frame} "
           "in the name is the frame's number; - is the standard output (PPM), term the terminal. With "
-          "--presets: a folder")
+          "--presets: a folder. No default")
       ->option_text("FILE")
       ->check(not_empty("FILE's name"));
   command
       .add_option("--compression", request.output.compression,
-                  "compression of PNG files: 0 (none) .. 9 (smallest); default: 3")
+                  "compression of PNG files, 0 (none) to 9 (smallest); default: 3")
       ->option_text("N")
       ->transform(integer_from(0, 9));
   add_parsed(
       command, "--mode", request.mode, named_display_mode,
       "display mode of the pictures: shape of the pixels and timing; a name that tessera modes lists, or "
       "WIDTHxHEIGHTxBITS; default: the pictures' size, square pixels, 60 Hz")
-      ->option_text("NAME");
+      ->option_text("MODE");
 }
 
 void add_signal(CLI::App& command, DisplayCommandRequest& request) {
   command
       .add_option("--signal", request.signal,
-                  "file for the lines of the signal of ntsc or pal, with sync and burst, in IRE or mV; .pfm")
+                  "file for the lines of the signal of ntsc or pal, with sync and burst, in IRE or mV; .pfm; "
+                  "default: none is written")
       ->option_text("FILE.pfm")
       ->check(not_empty("FILE's name"));
 }
@@ -109,6 +106,15 @@ void check_signal(const DisplayCommandRequest& request) {
   if (lower_case_extension(request.signal) != ".pfm")
     throw CLI::ValidationError(
         "--signal", "found " + cli::quoted(request.signal) + ", expected a name that ends in .pfm");
+}
+
+/// Refuses modes without pixels.
+void check_mode(const DisplayCommandRequest& request) {
+  try {
+    if (request.mode) video_mode(*request.mode);
+  } catch (const Error& error) {
+    throw UsageError(std::string("--mode: ") + error.what());
+  }
 }
 
 void add_presets(CLI::App& command, DisplayCommandRequest& request) {
@@ -134,34 +140,38 @@ void add_presets(CLI::App& command, DisplayCommandRequest& request) {
 }
 
 /// Refuses what does not belong to a comparison of presets.
-void check_presets(const CLI::App& command, const DisplayCommandRequest& request) {
-  for (const char* const option : {"--display", "--mode", "--scale", "--part", "--gain", "--time",
-                                   "--frame-ms", "--signal", "--compression", "--list", "--json"})
-    if (command.count(option) > 0)
-      throw CLI::ValidationError(option, "excludes --presets, which chooses displays, modes and views");
+void check_presets(const GivenOptions& given, const DisplayCommandRequest& request) {
+  given.allow_only({"--presets", "pictures", "--output", "--near", "--threads"},
+                   "excludes --presets, which chooses displays, modes and views");
   if (request.pictures.size() > 1)
-    throw CLI::ValidationError(
-        "--presets", "found " + std::to_string(request.pictures.size()) + " scenes, expected one or none");
+    throw UsageError("--presets: found " + std::to_string(request.pictures.size()) +
+                     " scenes, expected one or none");
   if (request.output.path.empty() || is_stream(request.output.path))
-    throw CLI::ValidationError(
-        "-o", "found " + (request.output.path.empty() ? "none" : cli::quoted(request.output.path)) +
-                  ", expected a folder");
+    throw UsageError("-o: found " +
+                     (request.output.path.empty() ? "none" : cli::quoted(request.output.path)) +
+                     ", expected a folder");
 }
 
-/// Refuses missing operands.
+/// Refuses missing operands, and options without effect.
 void check_use(const CLI::App& command, const DisplayCommandRequest& request) {
   if (command.remaining_size() > 0) return;  // reported as unexpected
-  if (request.presets) return check_presets(command, request);
-  if (request.list) return;
-  if (command.count("--near") > 0) throw CLI::ValidationError("--near", "needs --presets");
-  if (request.json) throw CLI::ValidationError("--json", "needs --list");
+  const GivenOptions given(command);
+  if (request.presets) return check_presets(given, request);
+  if (request.list) return given.allow_only({"--list", "--json"}, "has no effect with --list");
+  const bool is_png = lower_case_extension(request.output.path) == ".png";
+  given.require({
+      {"--near", request.presets, "needs --presets"},
+      {"--json", request.list, "needs --list"},
+      {"--compression", is_png, "is for PNG files, and the image is none"},
+      {"--frame-ms", request.pictures.size() != 1, "needs more than one picture"},
+  });
   if (request.pictures.empty())
-    throw CLI::ValidationError("PICTURE", "found none, expected a picture, frames in order, or --list");
+    throw UsageError("PICTURE: found none, expected a picture, frames in order, or --list");
   if (!request.display.display)
-    throw CLI::ValidationError("--display",
-                               "found none, expected a kind or a preset; tessera display --list has all");
-  if (request.output.path.empty()) throw CLI::ValidationError("-o", "found none, expected a file");
+    throw UsageError("--display: found none, expected a kind or a preset; tessera display --list has all");
+  if (request.output.path.empty()) throw UsageError("-o: found none, expected a file");
   check_signal(request);
+  check_mode(request);
 }
 
 }  // namespace

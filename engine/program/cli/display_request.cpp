@@ -44,14 +44,15 @@ Display named_display(const std::string& text) {
   }
 }
 
-bool parse_part(const std::string& text, ScreenView& view) {
+void parse_part(const std::string& text, ScreenView& view) {
   const std::vector<double> part = parse_numbers(text, 4, 4);
-  if (part.empty() || part[0] < 0 || part[1] < 0 || part[2] <= 0 || part[3] <= 0) return false;
+  if (part.empty() || part[0] < 0 || part[1] < 0 || part[2] <= 0 || part[3] <= 0)
+    throw Error("found \"" + text +
+                "\", expected X,Y,W,H in millimetres: the upper left corner, at least 0, and a size above 0");
   view.x_mm = part[0];
   view.y_mm = part[1];
   view.width_mm = part[2];
   view.height_mm = part[3];
-  return true;
 }
 
 }  // namespace tessera::program::cli

@@ -19,8 +19,8 @@ struct DisplayRequest {
 /// @throws Error as find_display() throws DisplayError; for a mistyped name with a suggestion
 Display named_display(const std::string& text);
 
-/// "X,Y,W,H": a part of the screen in millimetres, with X and Y at least 0, W and H above 0. Returns false
-/// for other texts.
-bool parse_part(const std::string& text, ScreenView& view);
+/// "X,Y,W,H": a part of the screen in millimetres, with X and Y at least 0, W and H above 0.
+/// @throws Error for other texts
+void parse_part(const std::string& text, ScreenView& view);
 
 }  // namespace tessera::program::cli

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/program/cli/measured_scene.h"
+#include "engine/program/cli/override_effects.h"
 #include "engine/program/cli/progress.h"
 #include "engine/program/cli/scene_input.h"
 
@@ -95,6 +96,7 @@ std::string buffers_text(const Frame& frame) {
 int explain(const ExplainRequest& request) {
   const Interrupt interrupt;
   const SceneInput input(request.input, request.overrides, request.import);
+  check_override_effects(request.given, input);
   input.print_warnings();
   FrameBuffer buffer(input.scene().framebuffer);
   Frame frame(buffer);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "engine/program/cli/given_options.h"
 #include "engine/program/cli/scene_input.h"
 #include "engine/program/scene/scene.h"
 
@@ -11,6 +12,7 @@ namespace tessera::program::cli {
 struct MeasuredScene;
 
 struct ExplainRequest {
+  GivenOptions given;
   std::string input;     ///< a scene or a model; empty: the built-in scene
   ImportRequest import;  ///< for a model
   SceneOverrides overrides;

@@ -1,8 +1,11 @@
 // Options of `tessera modes`.
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "engine/program/cli/choice_option.h"
 #include "engine/program/cli/command_options.h"
+#include "engine/program/cli/given_options.h"
 #include "engine/program/cli/mode_selection.h"
 #include "engine/program/cli/validators.h"
 #include "engine/program/scene/dither_names.h"
@@ -18,30 +21,16 @@ constexpr const char* kModesExamples = R"(Examples:
   tessera modes truck.glb -o compared --modes cga,ega,640x480x12 --dithers none,bayer8)";
 
 void add_screen_options(CLI::App& command, ModesRequest& request) {
-  CLI::Option* const diagonal =
-      command.add_option("--diagonal", request.diagonal_in, "diagonal of a 4:3 screen in inches")
-          ->option_text("INCHES")
-          ->check(positive_number());
-  CLI::Option* const pitch =
-      command.add_option("--pitch", request.pitch_mm, "distance of its dots of one colour in millimetres")
-          ->option_text("MM")
-          ->check(positive_number());
-  diagonal->needs(pitch);
-  pitch->needs(diagonal);
-}
-
-/// Adds an option whose value parse() turns into `target`.
-template <class Target, class Parse>
-CLI::Option* add_list(CLI::App& command, const std::string& option, Target& target, const Parse& parse,
-                      const std::string& text) {
-  const auto set = [&target, parse, option](const std::string& typed) {
-    try {
-      target = parse(typed);
-    } catch (const Error& error) {
-      throw CLI::ValidationError(option, error.what());
-    }
-  };
-  return command.add_option_function<std::string>(option, set, text)->option_text("NAME,...");
+  command
+      .add_option("--diagonal", request.diagonal_in,
+                  "diagonal of a 4:3 screen in inches, with --pitch; default: all modes are listed")
+      ->option_text("INCHES")
+      ->check(positive_number());
+  command
+      .add_option("--pitch", request.pitch_mm,
+                  "distance of its dots of one colour in millimetres, with --diagonal; no default")
+      ->option_text("MM")
+      ->check(positive_number());
 }
 
 void add_mode_comparison(CLI::App& command, ModeComparisonRequest& request) {
@@ -54,35 +43,48 @@ void add_mode_comparison(CLI::App& command, ModeComparisonRequest& request) {
   command
       .add_option("-o,--output", request.folder,
                   "folder for the scene in every mode with every dither: MODE-DITHER.png, contact.png, "
-                  "modes.csv, modes.json; the table is also printed")
+                  "modes.csv, modes.json; the table is also printed; default: none is drawn")
       ->option_text("DIR")
       ->check(not_empty("DIR's name"));
-  add_list(
+  add_parsed(
       command, "--modes", request.modes, parse_modes,
       "modes to compare, with parameters (cga:palette=0) or as WIDTHxHEIGHTxBITS; default: all named modes "
-      "with pixels");
-  add_list(command, "--dithers", request.dithers, parse_dithers,
-           "dithers to compare: " + dither_name_list(", ") + "; default: all");
+      "with pixels")
+      ->option_text("MODE,...");
+  add_parsed(command, "--dithers", request.dithers, parse_dithers,
+             "dithers to compare: " + dither_name_list(", ") + "; default: all")
+      ->option_text("DITHER,...");
   add_choice<DitherSpace, DitherSpace>(
       command, "--dither-in", request.dither_in,
       {{"levels", DitherSpace::levels}, {"light", DitherSpace::light}},
-      "what the dithers preserve on average: stored values (default), or the light of a display");
+      "what the dithers preserve on average: stored values, or the light of a display; default: levels");
   command.add_option("--threads", request.threads, "threads of -o; default: TESSERA_THREADS, or all cores")
       ->option_text("N")
       ->transform(integer_from(1, 1024));
 }
 
-/// Refuses options that belong to different uses of the command.
+/// Refuses options of another use of the command than the one asked for.
 void check_use(const CLI::App& command, const ModesRequest& request) {
   if (command.remaining_size() > 0) return;  // reported as unexpected
-  const bool compares = !request.comparison.folder.empty();
-  for (const char* const option :
-       {"input", "--import-memory", "--import-seconds", "--modes", "--dithers", "--dither-in", "--threads"})
-    if (!compares && command.count(option) > 0)
-      throw CLI::ValidationError(std::string(option) == "input" ? request.comparison.input : option,
-                                 "needs -o DIR, the folder for pictures and tables");
-  if (compares && command.count("--diagonal") > 0)
-    throw CLI::ValidationError("--diagonal", "finds the mode of a screen, excludes -o");
+  const GivenOptions given(command);
+  const bool compares = given.has("--output");
+  const bool dithers = request.comparison.dithers != std::vector{Dither::none};
+  constexpr std::string_view kNeeded = "needs -o DIR, the folder for pictures and tables";
+  if (!compares && given.has("input"))
+    throw UsageError(request.comparison.input + ": " + std::string(kNeeded));
+  given.require({
+      {"--import-memory", compares, kNeeded},
+      {"--import-seconds", compares, kNeeded},
+      {"--modes", compares, kNeeded},
+      {"--dithers", compares, kNeeded},
+      {"--dither-in", compares, kNeeded},
+      {"--threads", compares, kNeeded},
+      {"--dither-in", dithers, "has no effect with --dithers none"},
+      {"--diagonal", !compares, "finds the mode of a screen, excludes -o"},
+      {"--diagonal", given.has("--pitch"), "needs --pitch, the distance of the screen's dots"},
+      {"--pitch", given.has("--diagonal"), "needs --diagonal, the size of the screen"},
+  });
+  check_import_options(given, request.comparison.input);
 }
 
 }  // namespace

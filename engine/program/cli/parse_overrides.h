@@ -13,15 +13,17 @@ namespace tessera::program::cli {
 /// numbers out of range.
 std::vector<double> parse_numbers(const std::string& text, std::size_t min_count, std::size_t max_count);
 
-// Each returns false for malformed text; the overrides must not be used then.
+// Each throws Error, naming what was found and expected: for another form, and for the right form with values
+// that make no sense.
 
 /// "640x480"
-bool parse_size(const std::string& text, SceneOverrides& overrides);
-/// "EX,EY,EZ,TX,TY,TZ[,FOVY]": eye, target, and vertical angle of view in degrees.
-bool parse_camera(const std::string& text, SceneOverrides& overrides);
-/// "X,Y,Z[,W]": adds a white light.
-bool parse_light(const std::string& text, SceneOverrides& overrides);
+void parse_size(const std::string& text, SceneOverrides& overrides);
+/// "EX,EY,EZ,TX,TY,TZ[,FOVY]": eye, target, and vertical angle of view in degrees. Eye and target must
+/// differ.
+void parse_camera(const std::string& text, SceneOverrides& overrides);
+/// "X,Y,Z[,W]": adds a white light at a position, or with W = 0 from a direction, which must have a length.
+void parse_light(const std::string& text, SceneOverrides& overrides);
 /// "none", "#rrggbb" or "R,G,B", each 0 to 1.
-bool parse_background(const std::string& text, SceneOverrides& overrides);
+void parse_background(const std::string& text, SceneOverrides& overrides);
 
 }  // namespace tessera::program::cli

@@ -18,6 +18,7 @@
 #include "engine/program/cli/indexed_frame.h"
 #include "engine/program/cli/memory_dump.h"
 #include "engine/program/cli/picture_output.h"
+#include "engine/program/cli/override_effects.h"
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/scene_buffers.h"
 #include "engine/program/cli/scene_input.h"
@@ -138,8 +139,8 @@ void check_outputs(const RenderRequest& request, const std::string& path) {
   if (request.explain) stdout_users.emplace_back("--explain");
   if (request.stats == StatsFormat::json) stdout_users.emplace_back("--stats=json");
   if (stdout_users.size() > 1)
-    throw Error(stdout_users[0] + " and " + stdout_users[1] + " cannot both go to the standard output");
-  if (request.dump == path) throw Error("the picture and --dump are both \"" + path + "\"");
+    throw UsageError(stdout_users[0] + " and " + stdout_users[1] + " cannot both go to the standard output");
+  if (request.dump == path) throw UsageError("the picture and --dump are both \"" + path + "\"");
   const auto protect_inputs = [&](const std::string& file, const char* option) {
     refuse_overwriting(file, request.input, "input", option);
     refuse_overwriting(file, request.reference, "reference", option);
@@ -148,6 +149,15 @@ void check_outputs(const RenderRequest& request, const std::string& path) {
     if (!request.dump.empty()) protect_inputs(frame_path(request.dump, f, request.frames), "--dump");
     if (!is_stream(path)) protect_inputs(frame_path(path, f, request.frames), "-o");
   }
+}
+
+/// Refuses options that have no effect on the scene.
+void check_scene_options(const RenderRequest& request, const SceneInput& input) {
+  const bool moves = input.is_animated() || request.frames == 1 || request.display.display.has_value();
+  request.given.require(
+      {{"--frames", moves,
+        "needs a scene in which something moves, and nothing does; all frames would be equal"}});
+  check_override_effects(request.given, input);
 }
 
 /// Reads the content of a picture's file.
@@ -182,8 +192,10 @@ int render(RenderRequest request) {
   const bool is_named = !request.output.path.empty();
   const std::string path = output_path(request);
   check_outputs(request, path);
+  check_scene_options(request, input);
   if (!request.dump.empty() && !input.scene().mode)
-    throw Error("--dump writes the memory of a display mode, and the scene has none; name one with --mode");
+    throw UsageError(
+        "--dump writes the memory of a display mode, and the scene has none; name one with --mode");
   std::optional<Picture> reference;
   if (!request.reference.empty()) reference = read_picture(request.reference);
 

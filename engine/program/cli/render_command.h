@@ -5,6 +5,8 @@
 #include <string>
 
 #include "engine/program/cli/display_request.h"
+#include "engine/program/cli/exit_codes.h"
+#include "engine/program/cli/given_options.h"
 #include "engine/program/cli/output.h"
 #include "engine/program/cli/progress.h"
 #include "engine/program/cli/scene_input.h"
@@ -15,6 +17,7 @@
 namespace tessera::program::cli {
 
 struct RenderRequest {
+  GivenOptions given;
   std::string input;          ///< a scene or a model; empty: the built-in scene; "-": standard input
   ImportRequest import;       ///< for a model, and the format of standard input
   OutputRequest output;       ///< path empty: INPUT.render.png in the current folder
@@ -33,10 +36,6 @@ struct RenderRequest {
   ShowProgress progress = ShowProgress::automatic;
   std::optional<LogLevel> log;
 };
-
-/// Exit codes.
-inline constexpr int kDiffers = 3;
-inline constexpr int kInterrupted = 130;
 
 /// Writes explanations and JSON to stdout; warnings, readable statistics and the log to stderr.
 /// @return the exit code

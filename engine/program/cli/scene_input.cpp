@@ -13,6 +13,7 @@
 
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/progress.h"
+#include "engine/program/cli/usage_error.h"
 #include "engine/program/import/model.h"
 #include "engine/program/import/model_axes.h"
 #include "engine/program/scene/file_extension.h"
@@ -48,6 +49,15 @@ class StandardInputFile {
   std::string path_;
 };
 
+/// Applies the values of options. A value that the scene refuses is wrong usage.
+void apply_options(const SceneOverrides& overrides, Scene& scene) {
+  try {
+    apply(overrides, scene);
+  } catch (const Error& error) {
+    throw UsageError(error.code(), error.what());
+  }
+}
+
 }  // namespace
 
 SceneInput::SceneInput(const std::string& path, const SceneOverrides& overrides, const ImportRequest& import,
@@ -67,7 +77,7 @@ SceneInput::SceneInput(const std::string& path, const SceneOverrides& overrides,
   } else if (path == "-") {
     const StandardInputFile file(import.format);
     if (import.format == "json") scene_ = parse_scene(read_text_file(file.path()), "standard input");
-    else load_model(file.path(), options);
+    else load_standard_input(file.path(), options);
   } else if (lower_case_extension(path) == ".json") {
     file_.emplace(path, options);
     scene_ = file_->at(0);
@@ -75,9 +85,22 @@ SceneInput::SceneInput(const std::string& path, const SceneOverrides& overrides,
     load_model(path, options);
   }
   progress->clear();
-  apply(overrides_, scene_);
+  apply_options(overrides_, scene_);
   camera_ = scene_.camera;
   lights_ = scene_.lights;
+}
+
+void SceneInput::load_standard_input(const std::string& copy, const ImportOptions& options) {
+  try {
+    load_model(copy, options);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {  // must not name a file that the user did not
+    std::string message = error.what();
+    for (std::size_t at = 0; (at = message.find(copy)) != std::string::npos;)
+      message.replace(at, copy.size(), "standard input");
+    throw Error(error.code(), message);
+  }
 }
 
 void SceneInput::load_model(const std::string& path, const ImportOptions& options) {
@@ -101,7 +124,7 @@ double SceneInput::frame_time(int frame, int frames) const {
 void SceneInput::move_to(double time) {
   if (file_ && is_animated()) {
     scene_ = file_->at(time);
-    apply(overrides_, scene_);
+    apply_options(overrides_, scene_);
   } else {
     scene_.camera = camera_;
     scene_.lights = lights_;

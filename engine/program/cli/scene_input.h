@@ -23,14 +23,17 @@ class SceneInput {
   /// @param path       a scene or a model; empty: the built-in scene; "-": standard input
   /// @param overrides  replace values of the scene
   /// @param progress   whether to show how much of a model is read
-  /// @throws Error      for a file that cannot be read
-  /// @throws Cancelled  if the user interrupts
+  /// @throws UsageError  for overrides that contradict each other or the scene
+  /// @throws Error       for a file that cannot be read
+  /// @throws Cancelled   if the user interrupts
   SceneInput(const std::string& path, const SceneOverrides& overrides, const ImportRequest& import = {},
              ShowProgress progress = ShowProgress::automatic);
 
   const Scene& scene() const { return scene_; }
   /// Returns whether the scene changes over time.
   bool is_animated() const { return overrides_.turntable || (file_ && file_->is_animated()); }
+  /// Returns whether the scene is a model or contains models.
+  bool has_models() const { return scene_.is_model || (file_ && file_->has_models()); }
   /// Time of a frame, 0 .. 1: the last one is 1, except on a turntable, which ends where it begins.
   double frame_time(int frame, int frames) const;
   /// Evaluates the scene at `time`, 0 .. 1.
@@ -39,6 +42,8 @@ class SceneInput {
   void print_warnings() const;
 
  private:
+  /// @param copy  file with the bytes of standard input
+  void load_standard_input(const std::string& copy, const ImportOptions& options);
   void load_model(const std::string& path, const ImportOptions& options);
 
   SceneOverrides overrides_;

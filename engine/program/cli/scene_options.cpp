@@ -1,6 +1,7 @@
 // Options of `tessera scene`, and those of a scene's size and view.
 #include <string>
 
+#include "engine/program/cli/choice_option.h"
 #include "engine/program/cli/command_options.h"
 #include "engine/program/cli/parse_overrides.h"
 #include "engine/program/cli/validators.h"
@@ -16,42 +17,23 @@ constexpr const char* kSceneExamples = R"(Examples:
 }  // namespace
 
 void add_size(CLI::App& command, SceneOverrides& overrides) {
-  command
-      .add_option_function<std::string>(
-          "--size",
-          [&overrides](const std::string& text) {
-            if (!parse_size(text, overrides))
-              throw CLI::ValidationError("--size", "found \"" + text +
-                                                       "\", expected WIDTHxHEIGHT, each 1 to " +
-                                                       std::to_string(kMaxFrameBufferSize));
-          },
-          "size of the picture; default: the scene's, or 640x480 for a model")
+  add_text(
+      command, "--size", [&overrides](const std::string& text) { parse_size(text, overrides); },
+      "size of the picture in pixels, each 1 to " + std::to_string(kMaxFrameBufferSize) +
+          "; default: the scene's, or 640x480 for a model")
       ->option_text("WIDTHxHEIGHT");
 }
 
 void add_view(CLI::App& command, SceneOverrides& overrides) {
-  command
-      .add_option_function<std::string>(
-          "--camera",
-          [&overrides](const std::string& text) {
-            if (!parse_camera(text, overrides))
-              throw CLI::ValidationError(
-                  "--camera",
-                  "found \"" + text +
-                      "\", expected EX,EY,EZ,TX,TY,TZ[,FOVY]: eye, target, vertical angle in degrees");
-          },
-          "camera for the whole frame, in place of the scene's or the model's")
+  add_text(
+      command, "--camera", [&overrides](const std::string& text) { parse_camera(text, overrides); },
+      "eye, target and vertical angle of view in degrees of a camera for the whole frame; default: the "
+      "scene's or the model's camera; default of FOVY: 45")
       ->option_text("EX,EY,EZ,TX,TY,TZ[,FOVY]");
-  command
-      .add_option_function<std::string>(
-          "--light",
-          [&overrides](const std::string& text) {
-            if (!parse_light(text, overrides))
-              throw CLI::ValidationError(
-                  "--light",
-                  "found \"" + text + "\", expected X,Y,Z[,W]: a position, or with W = 0 a direction");
-          },
-          "white light for the whole frame, in place of the scene's; may be repeated")
+  add_text(
+      command, "--light", [&overrides](const std::string& text) { parse_light(text, overrides); },
+      "white light for the whole frame at a position, or with W = 0 from a direction; may be repeated; "
+      "default: the scene's lights; default of W: 1")
       ->option_text("X,Y,Z[,W]")
       ->trigger_on_parse();  // called once per occurrence
 }
@@ -67,7 +49,8 @@ CLI::App* add_scene(CLI::App& program, SceneRequest& request) {
       ->check(not_empty("a model's name"));
   command
       ->add_option("-o,--output", request.output,
-                   "scene file to write, .json; textures are written next to it as NAME.texture0.png, ...")
+                   "scene file to write, .json; textures are written next to it as "
+                   "NAME.texture0.png, ...; required")
       ->option_text("FILE.json")
       ->required()
       ->check(not_empty("FILE's name"));

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/program/cli/exit_codes.h"
 #include "engine/program/cli/machine_text.h"
 #include "engine/program/cli/printable.h"
 #include "engine/program/cli/progress.h"
@@ -183,7 +184,7 @@ int selftest(const SelftestRequest& request) {
             << "\n";
   if (passed) return 0;
   std::cerr << "tessera: error: the self-test failed: " << summary << " passed\n";
-  return kSelftestFailed;
+  return kDiffers;
 }
 
 }  // namespace tessera::program::cli

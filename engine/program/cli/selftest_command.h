@@ -14,11 +14,8 @@ struct SelftestRequest {
   int threads = 0;
 };
 
-/// Exit code if a scene or a check fails.
-inline constexpr int kSelftestFailed = 3;
-
 /// Runs the self-test and prints a report on stdout.
-/// @return 0 or kSelftestFailed
+/// @return 0, or kDiffers if a scene or a check fails
 /// @throws Error if the file of expected hashes cannot be read or lacks a scene
 int selftest(const SelftestRequest& request);
 

@@ -6,12 +6,24 @@
 
 #include "engine/program/cli/output.h"
 #include "engine/program/cli/printable.h"
+#include "engine/program/cli/usage_error.h"
 #include "engine/program/imageio/atomic_file.h"
 #include "engine/program/imageio/float_picture.h"
 #include "engine/program/scene/file_extension.h"
 
 namespace tessera::program::cli {
 namespace {
+
+/// The screen that options describe.
+/// @throws UsageError for parts and scales that the screen does not have
+Screen screen_for(const DisplayRequest& request, const VideoMode& mode, const ScreenWorkers& workers,
+                  InstructionSet instruction_set) {
+  try {
+    return {*request.display, mode, request.view, workers, instruction_set};
+  } catch (const DisplayError& error) {
+    throw UsageError(error.what());
+  }
+}
 
 bool receives_light(const std::string& path) { return lower_case_extension(path) == ".pfm"; }
 
@@ -28,7 +40,7 @@ VideoMode video_mode(const DisplayMode& mode) {
 ShownPictures::ShownPictures(const DisplayRequest& request, const VideoMode& mode, const std::string& path,
                              int threads, InstructionSet instruction_set)
     : workers_(threads),
-      screen_(*request.display, mode, request.view, ScreenWorkers(workers_), instruction_set),
+      screen_(screen_for(request, mode, ScreenWorkers(workers_), instruction_set)),
       start_ms_(request.start_ms),
       frame_ms_(request.frame_ms > 0 ? request.frame_ms : screen_.frame_ms()),
       image_(screen_.width(), screen_.height()) {

@@ -53,7 +53,13 @@ Bytes decode(const std::string& extension, const unsigned char* file, std::size_
   config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   const std::unique_ptr<OIIO::ImageInput> input =
       OIIO::ImageInput::open("picture" + extension, &config, &memory);
-  if (!input) throw Failure{"OpenImageIO: " + OIIO::geterror()};
+  if (!input) {
+    const std::string reason = OIIO::geterror();
+    // The message would name "picture.EXTENSION", which is no file.
+    if (reason.find("not the name of an image format") != std::string::npos)
+      throw Failure{"it is no picture of a known format; \"tessera formats\" lists them"};
+    throw Failure{"OpenImageIO: " + reason};
+  }
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.width > max_side_px || spec.height > max_side_px)
     throw Failure{"the image is " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +

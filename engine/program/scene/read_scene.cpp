@@ -292,6 +292,8 @@ SceneFile::SceneFile(SceneFile&&) noexcept = default;
 
 bool SceneFile::is_animated() const { return content_->animated; }
 
+bool SceneFile::has_models() const { return !content_->models.models.empty(); }
+
 Scene SceneFile::at(double time) {
   Json json = content_->json;
   json::animate(json, time, content_->path);

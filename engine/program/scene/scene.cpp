@@ -96,8 +96,17 @@ void apply_format(const SceneOverrides& overrides, Scene& scene) {
   if (!scene.palette_name.empty()) format.palette = named_palette(scene.palette_name, format.color_bits);
   if (format.palette.size() > std::size_t{1} << format.color_bits)
     throw Error("the scene's palette has " + std::to_string(format.palette.size()) +
-                " entries, must be at most " + std::to_string(1 << format.color_bits) + " for " +
+                " entries, expected at most " + std::to_string(1 << format.color_bits) + " for " +
                 std::to_string(format.color_bits) + " color bits");
+}
+
+void set_samples(int samples, Scene& scene) {
+  if (samples > 1 && scene.framebuffer.color_mode == ColorMode::index)
+    throw Error(
+        std::to_string(samples) +
+        " samples per pixel need RGB colors, and the frame buffer holds palette indices, which have no "
+        "mean");
+  scene.framebuffer.samples = samples;
 }
 
 void set_shading(Shading shading, Scene& scene) {
@@ -171,7 +180,7 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
   }
   if (overrides.camera) follow_camera(scene);  // replaces draws
   if (overrides.shading) set_shading(*overrides.shading, scene);
-  if (overrides.samples) scene.framebuffer.samples = *overrides.samples;
+  if (overrides.samples) set_samples(*overrides.samples, scene);
   if (overrides.background) set_background(*overrides.background, scene);
   if (overrides.wireframe) draw_edges(scene);
   reduce_transparent_model(scene);

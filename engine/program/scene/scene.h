@@ -135,6 +135,8 @@ class SceneFile {
   Scene at(double time);
   /// Returns whether any number changes over time.
   bool is_animated() const;
+  /// Returns whether at() has read a model.
+  bool has_models() const;
 
  private:
   struct Content;

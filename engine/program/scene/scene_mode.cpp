@@ -16,8 +16,11 @@ DisplayMode named_display_mode(const std::string& name) {
     for (const DisplayMode& mode : display_modes()) names.push_back(mode.name);
     const std::string base = name.substr(0, name.find(':'));
     const bool is_known = std::find(names.begin(), names.end(), base) != names.end();
-    if (is_known || error.code() == ErrorCode::unsupported) throw;
-    throw Error(error.code(), error.what() + did_you_mean(base, names));
+    std::string message = error.what();
+    constexpr std::string_view kFunction = "display_mode: ";  // the user called none
+    if (message.starts_with(kFunction)) message.erase(0, kFunction.size());
+    if (!is_known && error.code() != ErrorCode::unsupported) message += did_you_mean(base, names);
+    throw Error(error.code(), message);
   }
 }
 

@@ -30,7 +30,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> candidates) {
   constexpr std::size_t kMaxNameLength = 64;  // the distance costs length^2
-  if (typed.empty() || typed.size() > kMaxNameLength) return {};
+  if (typed.size() < 2 || typed.size() > kMaxNameLength)
+    return {};  // any letter is one change away from another
   std::string_view best;
   std::size_t best_distance = std::max<std::size_t>(1, typed.size() / 3) + 1;
   for (const std::string_view candidate : candidates)

@@ -8,7 +8,7 @@
 namespace tessera::program {
 
 /// Returns the candidate with the fewest changed, missing, added or swapped letters; empty if these are more
-/// than a third of the letters typed.
+/// than a third of the letters typed, and for single letters.
 std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> candidates);
 
 /// Returns `; did you mean "x"?`, or nothing.
