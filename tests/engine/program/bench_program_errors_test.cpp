@@ -54,7 +54,9 @@ TEST_F(BenchProgramErrors, ChecksOutputsBeforeMeasuring) {
        "store-24: is not drawn by a renderer, so there is no heatmap", 1},
       {"--growth none/growth.svg", "cannot write \"none/growth.svg\"", 1}};
   for (const auto& [arguments, message, code] : cases) {
-    const Result refused = run("bench --size 64x48 --repeats 2 --seconds 0.001 " + std::string(arguments));
+    const bool traces = contains(arguments, "--trace");  // one frame: neither repeats nor seconds
+    const Result refused =
+        run(std::string("bench --size 64x48 ") + (traces ? "" : "--repeats 2 --seconds 0.001 ") + arguments);
     EXPECT_EQ(refused.code, code) << arguments << "\n" << refused.err;
     EXPECT_TRUE(contains(refused.err, message)) << arguments << "\n" << refused.err;
     EXPECT_EQ(refused.out, "") << arguments;
@@ -120,10 +122,10 @@ TEST_F(BenchProgramErrors, RejectsInvalidArguments) {
                {"--compare missing.json", "missing.json", 1},
                {"--compare other.json", "found an object, expected a workload with its name", 1},
                {"--compare older.json", "found no \"height\", expected a report of tessera bench --json", 1},
-               {"--memory-cores 4", "--memory-cores requires --scaling", 2},
+               {"--memory-cores 4", "--memory-cores: needs --scaling", 2},
                {"--rivals --driver swr", "found \"swr\", expected llvmpipe|softpipe", 2},
-               {"--rivals --scaling", "--rivals excludes --scaling", 2},
-               {"--driver softpipe", "--driver requires --rivals", 2},
+               {"--rivals --scaling", "--scaling: excludes --rivals", 2},
+               {"--driver softpipe", "--driver: needs --rivals", 2},
                {"--trace t.json --json -", "--json", 2},
                {"--fast", "--fast", 2}};
   for (const auto& [arguments, message, code] : cases) {

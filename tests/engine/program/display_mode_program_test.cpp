@@ -60,15 +60,15 @@ TEST_F(DisplayModeProgram, RefusesWrongDisplayModes) {
       {"--mode 640x480x25", 2, "has 25 bits per pixel, must be 1 to 24"},
       {"--mode spectrum", 2, "is not supported: it has two colours per cell"},
       {"--mode ham", 2, "is not supported: a pixel may change one component"},
-      {"--mode mda", 1, "character cells"},
-      {"--mode cga --size 10x10", 1, "the size is that of display mode \"cga\""},
-      {"--mode cga --color-bits 4", 1, "the color bits are those of display mode \"cga\""},
-      {"--mode cga --palette gray", 1, "fixed"},
-      {"--mode vga13h --palette web216", 1, "the nearest colour is"},
-      {"--mode ega --palette vga256", 1, "256 entries"},
-      {"--reduce", 1, "--mode"},
-      {"--dump x.bin", 1, "--dump writes the memory of a display mode"},
-      {"--mode cga --dump a.png", 1, "the picture and --dump are both \"a.png\""},
+      {"--mode mda", 2, "character cells"},
+      {"--mode cga --size 10x10", 2, "the size is that of display mode \"cga\""},
+      {"--mode cga --color-bits 4", 2, "the color bits are those of display mode \"cga\""},
+      {"--mode cga --palette gray", 2, "fixed"},
+      {"--mode vga13h --palette web216", 2, "the nearest colour is"},
+      {"--mode ega --palette vga256", 2, "256 entries"},
+      {"--reduce", 2, "--mode"},
+      {"--dump x.bin", 2, "--dump writes the memory of a display mode"},
+      {"--mode cga --dump a.png", 2, "the picture and --dump are both \"a.png\""},
       {"--mode cga --frames 2 --dump x.bin -o 'y_{frame}.png'", 2, "put {frame} into the name"},
   };
   for (const auto& row : kBad) {
@@ -135,7 +135,7 @@ TEST_F(DisplayModeProgram, ReducesPicturesToADisplayMode) {
     "meshes": {"q": {"builtin": "quad"}},
     "frame": [{"clear": {"color": [1, 0.5, 0, 1]}}, {"draw": "q", "blend": {}, "lighting": false}]})");
   const Result refused = run("render blend.json --mode ega -o a.ppm");
-  EXPECT_EQ(refused.code, 1);
+  EXPECT_EQ(refused.code, 2);
   EXPECT_TRUE(contains(refused.err, "blend")) << refused.err;
   const Result reduced =
       run("render blend.json --mode ega --reduce -o a.ppm --dump a.bin --planes planes --stats");

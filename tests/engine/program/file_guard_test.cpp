@@ -28,7 +28,7 @@ TEST_F(RenderOutput, DefaultNameReplacesEarlierPictureAndNoTexture) {
   write("pot.png", "a texture");
   for (int repetition = 0; repetition < 2; ++repetition) {
     const Result one = run("render pot.obj --size 8x8");
-    const Result two = run("render pot.obj --size 8x8 --frames 2");
+    const Result two = run("render pot.obj --size 8x8 --turntable 2");
     EXPECT_EQ(one.code, 0) << one.err;
     EXPECT_TRUE(contains(one.err, "tessera: wrote pot.render.png\n")) << one.err;
     EXPECT_EQ(two.code, 0) << two.err;

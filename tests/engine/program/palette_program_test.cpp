@@ -148,21 +148,22 @@ TEST_F(PaletteProgram, RefusesWhatHasNoPaletteToChoose) {
     "color": {"mode": "index", "bits": 4}}, "frame": [{"clear": {"index": 3}}]})");
   const struct {
     const char* arguments;
+    int code;
     const char* fragment;
   } kBad[] = {
-      {"balls.json --mode cga --palette adaptive", "mode \"cga\" has 4 fixed colours"},
-      {"balls.json --mode vga16 --palette adaptive", "mode \"vga16\" has no palette"},
-      {"balls.json --mode hercules --palette ramps", "colour components of 1 bit"},
-      {"cga.json", "/framebuffer/palette: palette_request: mode \"cga\" has 4 fixed colours"},
-      {"over.json", "/framebuffer/palette_over: needs \"palette\": \"adaptive\" or \"ramps\""},
-      {"balls.json --palette-over frame", "needs the palette \"adaptive\" or \"ramps\""},
-      {"balls.json --palette ramps --palette-over smooth", "a smooth palette follows pictures"},
-      {"index.json --palette adaptive", "/frame/0: a clear stores palette indices"},
-      {"index.json --palette ramps", "/frame/0: a clear stores palette indices"},
+      {"balls.json --mode cga --palette adaptive", 2, "mode \"cga\" has 4 fixed colours"},
+      {"balls.json --mode vga16 --palette adaptive", 2, "mode \"vga16\" has no palette"},
+      {"balls.json --mode hercules --palette ramps", 2, "colour components of 1 bit"},
+      {"cga.json", 1, "/framebuffer/palette: palette_request: mode \"cga\" has 4 fixed colours"},
+      {"over.json", 1, "/framebuffer/palette_over: needs \"palette\": \"adaptive\" or \"ramps\""},
+      {"balls.json --palette-over frame --frames 2", 2, "needs the palette \"adaptive\" or \"ramps\""},
+      {"balls.json --palette ramps --palette-over smooth --frames 2", 2, "a smooth palette follows pictures"},
+      {"index.json --palette adaptive", 2, "/frame/0: a clear stores palette indices"},
+      {"index.json --palette ramps", 2, "/frame/0: a clear stores palette indices"},
   };
-  for (const auto& [arguments, fragment] : kBad) {
-    const Result result = run(std::string("render ") + arguments + " -o a.ppm");
-    EXPECT_EQ(result.code, 1) << arguments;
+  for (const auto& [arguments, code, fragment] : kBad) {
+    const Result result = run(std::string("render ") + arguments + " -o 'a{frame}.ppm'");
+    EXPECT_EQ(result.code, code) << arguments;
     EXPECT_TRUE(contains(result.err, fragment)) << arguments << "\n" << result.err;
   }
   EXPECT_EQ(run("render --palette adaptiv -o a.ppm").code, 2);

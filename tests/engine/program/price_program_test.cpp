@@ -47,7 +47,7 @@ TEST_F(PriceProgram, RefusesUnknownNames) {
   const Result set = price("--isa mmx");
   EXPECT_EQ(set.code, 2);
   EXPECT_THAT(set.err, HasSubstr("--isa: found \"mmx\", expected one of "));
-  const Result missing = price("frame --check none.json");
+  const Result missing = price("--check none.json");
   EXPECT_EQ(missing.code, 1);
   EXPECT_THAT(missing.err, HasSubstr("none.json"));
 }

@@ -85,7 +85,8 @@ TEST_F(ProgramLimits, CtrlCCancelsReadingOfModel) {
 }
 
 TEST_F(ProgramLimits, CtrlCLeavesFinishedPicturesComplete) {
-  write("long.json", R"({"tessera": 1, "framebuffer": {"width": 500, "height": 400}})");
+  write("long.json", R"({"tessera": 1, "framebuffer": {"width": 500, "height": 400},
+    "frame": [{"clear": {"color": [{"keys": [[0, 0], [1, 1]]}, 0, 0, 1]}}]})");
   const std::string command = "cd '" + folder_.string() +
                               "' && timeout --foreground --preserve-status -s INT 1 '" TESSERA_PROGRAM
                               "' render long.json --frames 100000 -o 'f_{frame}.ppm' 2>err.txt";

@@ -65,7 +65,7 @@ TEST_F(Program, ReportsWrongUsageInOneLineAndExitsWith2) {
       {"render a.json b.json", "unexpected argument \"b.json\""},
       {"render -x", "-x"},
       {"render --camera 1,2,3", "EX,EY,EZ,TX,TY,TZ[,FOVY]"},
-      {"render --camera 0,0,0,0,0,0", "EX,EY,EZ,TX,TY,TZ[,FOVY]"},
+      {"render --camera 0,0,0,0,0,0", "found eye and target both at 0,0,0, expected two different points"},
       {"render --light 1,2", "X,Y,Z[,W]"},
       {"render --light 1,2,nan", "X,Y,Z[,W]"},
       {"render --stats=xml", "expected one of text, json"},
@@ -93,7 +93,12 @@ TEST_F(Program, ReportsWrongUsageInOneLineAndExitsWith2) {
       {"selftest --expct x", "did you mean \"--expect\"?"},
       {"selftest x", "unexpected argument \"x\""},
       {"selftest --threads 0", "expected an integer from 1 to 1024"},
-      {"selftest --hashes --expect x", "--hashes: prints"},
+      {"render -o x.ppm --palette vga256 --color-bits 4", "256"},
+      {"render -o x.ppm --frames 2", "put {frame} into the name"},
+      {"render -o - --stats=json", "cannot both go to the standard output"},
+      {"render -o x.ppm --explain --stats=json", "cannot both go to the standard output"},
+      {"render -o 'x{frame}.ppm' --frames 2 --planes p", "put {frame} into the name"},
+      {"selftest --hashes --expect x", "--expect: has no effect with --hashes"},
   };
   for (const auto& [arguments, fragment] : kBad) {
     const Result result = run(arguments);
@@ -127,9 +132,6 @@ TEST_F(Program, ReportsFailuresInOneLineAndExitsWith1) {
       {"render fine.json -o picture", "the name has no extension"},
       {"render fine.json -o picture.xyz", "picture.xyz"},
       {"render fine.json -o x.ppm --planes fine.json", "fine.json"},
-      {"render fine.json -o x.ppm --palette vga256 --color-bits 4", "256"},
-      {"render fine.json -o - --stats=json", "cannot both go to the standard output"},
-      {"render fine.json -o x.ppm --explain --stats=json", "cannot both go to the standard output"},
       {"render fine.json -o x.ppm --compare nothing.ppm", "cannot read \"nothing.ppm\""},
       {"render fine.json -o x.ppm --compare bad.ppm",
        "cannot read \"bad.ppm\": it ends before its last pixel"},
@@ -268,7 +270,8 @@ TEST_F(Program, RendersNumberedFramesOfAnimation) {
 }
 
 TEST_F(Program, ReadsLeadingZerosAsDecimal) {
-  write("s.json", R"({"tessera": 1, "framebuffer": {"width": 4, "height": 2}})");
+  write("s.json", R"({"tessera": 1, "framebuffer": {"width": 4, "height": 2},
+    "frame": [{"clear": {"color": [{"keys": [[0, 0], [1, 1]]}, 0, 0, 1]}}]})");
   ASSERT_EQ(run("render s.json --frames 010 -o 'f_{frame}.ppm'").code, 0);
   EXPECT_TRUE(exists("f_0009.ppm"));
   EXPECT_FALSE(exists("f_0010.ppm"));
@@ -342,7 +345,8 @@ TEST_F(Program, LeavesAlphaOutOfPngOfFewBitsPerPixel) {
 }
 
 TEST_F(Program, OptionalValuesDoNotConsumeTheScene) {
-  write("s.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8}})");
+  write("s.json", R"({"tessera": 1, "framebuffer": {"width": 8, "height": 8},
+    "meshes": {"pot": {"builtin": "teapot"}}, "frame": [{"draw": "pot"}]})");
   for (const char* options : {"--stats", "--stats=json", "--light 1,0,0", "--light 1,0,0,0 --light 0,1,0",
                               "--explain", "--progress never"}) {
     const Result result = run("render " + std::string(options) + " s.json -o s.ppm");
