@@ -5,6 +5,7 @@
 
 #include "engine/program/cli/gallery_files.h"
 #include "engine/program/cli/printable.h"
+#include "engine/program/cli/words.h"
 #include "engine/program/scene/json_value.h"
 #include "engine/program/scene/suggest.h"
 
@@ -16,13 +17,6 @@ constexpr std::size_t kMaxNearNames = 8;
 std::string title_of(const std::string& scene_file) {
   const json::Json scene = json::parse(gallery_content(scene_file), scene_file);
   return scene.at("title").get<std::string>();
-}
-
-std::vector<std::string> words_of(const std::string& line) {
-  std::istringstream stream(line);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
 }
 
 /// Reads gallery.txt, whose first lines describe its format.

@@ -12,6 +12,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "engine/program/cli/words.h"
+
 namespace tessera::program::cli {
 namespace {
 
@@ -26,11 +28,6 @@ constexpr std::size_t kMinCommentWidth = 20;
 std::size_t columns_of(std::string_view text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
-}
-
-std::vector<std::string> words_of(const std::string& text) {
-  std::istringstream stream(text);
-  return {std::istream_iterator<std::string>(stream), {}};
 }
 
 /// Parts of a shell command that stay together: each option with its values.

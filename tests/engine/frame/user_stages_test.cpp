@@ -8,6 +8,7 @@
 
 #include "engine/program/scene/builtin_mesh.h"
 #include "tests/engine/frame/api_support.h"
+#include "tests/examples/phong.h"
 
 namespace tessera::test::user_stages_test {
 namespace {
@@ -514,6 +515,37 @@ TEST(UserStages, CapturesObeyDiscards) {
   }
   EXPECT_GT(drawn, 100u);
   EXPECT_LT(drawn, 90u * 60 / 2);
+}
+
+// The example's lighting of the teapot, from several sides.
+TEST(UserStages, PhongLightingAsAStageEqualsTheBuiltInOne) {
+  const MeshData teapot = builtin_mesh("teapot", 10);
+  Phong phong{{1, 2, 0}, {0.8f, 0.3f, 0.2f}, 0.6f, 20};
+  DrawState state;
+  state.shading = Shading::phong;
+  state.material.ambient = {0, 0, 0, 1};
+  state.material.diffuse = {0.8f, 0.3f, 0.2f, 1};
+  state.material.specular = {0.6f, 0.6f, 0.6f, 1};
+  state.material.shininess = 20;
+  for (const double angle : {0.0, 100.0, 220.0}) {
+    state.transform = translate(0, 0, -3) * rotate(25, 1, 0, 0) * rotate(angle, 0, 1, 0);
+    const auto drawn = [&](const DrawState& s) {
+      auto buffer = std::make_unique<FrameBuffer>(FrameBufferFormat{.width = 320, .height = 240});
+      Frame frame(*buffer);
+      frame.set_camera({.projection = perspective(40, 4.0 / 3, 1, 10)});
+      frame.set_lights({Light{.position = {1, 2, 0, 1}}});
+      frame.set_light_model(
+          {.ambient = {0, 0, 0, 1}, .local_viewer = true, .specular = SpecularModel::phong});
+      frame.clear({.color = Color{0.1f, 0.1f, 0.15f, 1}, .depth = 1.0});
+      frame.draw(teapot.view(), s);
+      Renderer().finish(frame);
+      return buffer;
+    };
+    DrawState staged = state;
+    staged.fragment_stage =
+        FragmentStage{.run = Phong::run, .data = &phong, .reads = {.eye = true, .normal = true}};
+    EXPECT_LE(largest_difference(*drawn(staged), *drawn(state)), 1) << angle;
+  }
 }
 
 TEST(UserStages, AreNamedByExplain) {
