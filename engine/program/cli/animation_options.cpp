@@ -52,8 +52,8 @@ void check_animation(const RenderRequest& request) {
     require_frame_name(request, "-o", path, ", or write an animated .png");
   require_frame_name(request, "--dump", request.dump, "");
   require_frame_name(request, "--planes", request.planes_folder, "");
-  if (request.output.delay_ms && !is_animation)
-    throw UsageError("--delay is for animated PNG files: several frames, -o FILE.png without {frame}");
+  request.given.require(
+      {{"--delay", is_animation, "is for animated PNG files: several frames, -o FILE.png without {frame}"}});
 }
 
 }  // namespace tessera::program::cli

@@ -208,7 +208,7 @@ TEST_F(PngProgram, AClosedPipeIsOneError) {
   write_scene();
   ASSERT_EQ(::mkfifo((folder_ / "pipe.png").c_str(), 0600), 0);
   for (const char* options :
-       {"-o pipe.png --compression 0", "-o pipe.png --compression 0 --frames 90", "-o -"}) {
+       {"-o pipe.png --compression 0", "-o pipe.png --compression 0 --turntable 90", "-o -"}) {
     const bool is_stream = std::string(options) == "-o -";
     // The reader ends before the writer has written more than the pipe holds.
     const std::string command = is_stream
