@@ -55,7 +55,7 @@ struct FragmentTriangle {
         ops(draw.ops != nullptr ? *draw.ops : kNoOperations),
         triangle(shaded),
         face(shaded.back ? 1 : 0),
-        has_depth(draw.path.uses_depth()),
+        has_depth(draw.uses_depth && draw.path.uses_depth()),
         evaluates_colors(needs_colors(draw)),
         runs_stage_first(draw.stage != nullptr && draw.stage->runs_before_tests),
         texture(texture_of(colors_of, shaded.back)) {

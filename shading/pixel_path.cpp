@@ -138,7 +138,8 @@ PixelPathFrame pixel_path_frame(const TileFrame& frame, InstructionSet isa) {
 
 PixelPath choose_pixel_path(const PixelPathFrame& frame, const TileDraw& draw) {
   PixelPath path;
-  if (draw.uses_depth) path.depth_format = frame.depth_format;
+  const bool is_read_by_stage = draw.stage != nullptr && draw.stage->stage.reads.depth;
+  if (draw.uses_depth || is_read_by_stage) path.depth_format = frame.depth_format;
   if (draw.texels != nullptr) {
     path.kind = Kind::pixel_rectangle;
     path.color_write = fragment_color_write(draw);

@@ -48,7 +48,7 @@ struct PixelPath {
   Kind kind = Kind::triangles;
   ColorWrite color_write = ColorWrite::constant;
   DepthTestPath depth_test = DepthTestPath::generic;  ///< triangles, triangles_msaa
-  DepthFormat depth_format = DepthFormat::none;       ///< none: the draw uses no depth
+  DepthFormat depth_format = DepthFormat::none;       ///< none: depths of the draw are not computed
 
   bool uses_depth() const { return depth_format != DepthFormat::none; }
   bool operator==(const PixelPath&) const = default;

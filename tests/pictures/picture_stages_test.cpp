@@ -1,5 +1,5 @@
-// Random scenes whose draws carry user stages, drawn by the engine and by the reference renderer with the same
-// functions. TESSERA_LONG=1: 200 scenes.
+// Random scenes whose draws carry user stages, drawn by the engine and by the reference renderer with the
+// same functions. TESSERA_LONG=1: 200 scenes.
 #include "tests/pictures/picture_harness.h"
 #include "tests/random_scenes/random_scene.h"
 
@@ -19,7 +19,8 @@ TEST(PictureStages, RandomScenesEqualTheReference) {
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     std::ofstream(file) << random_scene_with_stages(seed);
     const ThreeWayReport report = compare_three_ways(file.string());
-    if (!report.is_good()) ADD_FAILURE() << "scene " << seed << "\n" << report.text() << write_pictures(report);
+    if (!report.is_good())
+      ADD_FAILURE() << "scene " << seed << "\n" << report.text() << write_pictures(report);
   }
   std::filesystem::remove(file);
 }

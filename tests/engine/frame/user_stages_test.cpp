@@ -257,6 +257,31 @@ TEST(UserStages, GetWindowPositionsAndDepths) {
     }
 }
 
+// A draw that neither tests nor writes depth has depths all the same.
+TEST(UserStages, ReadDepthWithoutADepthTest) {
+  for (const bool discards : {false, true})
+    for (const int samples : {1, 4}) {
+      FrameBufferFormat format = kFormat;
+      format.samples = samples;
+      FrameBuffer buffer(format);
+      Frame frame(buffer);
+      frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+      DrawState state = unlit({1, 1, 1, 1});
+      state.depth.enabled = false;
+      state.fragment_stage = FragmentStage{.run =
+                                               [](const FragmentBlock& block, void*) {
+                                                 for (std::size_t i = 0; i < block.count; ++i)
+                                                   block.color[0][i] = static_cast<float>(block.depth[i]);
+                                               },
+                                           .reads = {.depth = true, .color = true},
+                                           .discards = discards};
+      const MeshData mesh = whole_window(0.5f);
+      frame.draw(mesh.view(), state);
+      Renderer().finish(frame);
+      for (const std::uint32_t color : colors_of(buffer)) ASSERT_EQ(color, 0xbfffffu) << samples << discards;
+    }
+}
+
 TEST(UserStages, DiscardLikeAScissor) {
   DrawState state = shiny(Shading::phong);
   state.scissor = Rect{0, 0, 40, 60};
