@@ -42,6 +42,7 @@ struct BatchSurface {
   bool clamps_colors = false;                // extrapolated colours are clamped to 0..1
   const DrawTexture* texture = nullptr;      // null: none
   const TileFragmentStage* stage = nullptr;  // runs on the textured colours; null: none
+  bool gathers_stage_inputs = false;         // inputs of the stage are gathered with the attributes
   int alpha_attribute = -1;                  // with a stage: the attribute of alpha; -1: `alpha` everywhere
   float alpha = 1;
   const TileDraw* tile_draw = nullptr;  // the draw whose colours these are
@@ -63,10 +64,17 @@ HWY_INLINE const DrawTexture* texture_of(const TileDraw& draw, bool back) {
 
 /// Whether attributes are clamped to the range of a triangle's vertices. With several samples the centre of a
 /// covered pixel may lie outside the triangle. With one sample only colours 0..1 are clamped; scaled_colors
-/// keep a margin instead (scale_colors()). Lines extrapolate beyond their ends [GL 2.1, equation 3.6].
+/// keep a margin instead (scale_colors()), and those of a fragment stage are clamped before it. Lines
+/// extrapolate beyond their ends [GL 2.1, equation 3.6].
 HWY_INLINE bool attributes_clamp_to_range(const TileContext& context, const TileDraw& draw) {
   if (draw.topology == Topology::lines) return false;
-  return context.samples > 1 || (draw.source == ColorSource::interpolated && !draw.scaled_colors);
+  if (context.samples > 1) return true;
+  return draw.source == ColorSource::interpolated && !draw.scaled_colors && draw.stage == nullptr;
+}
+
+/// Whether a fragment stage has inputs that are interpolated from the vertices, besides the colour.
+HWY_INLINE bool has_interpolated_inputs(const TileFragmentStage& stage, int alpha_attribute) {
+  return stage.eye >= 0 || stage.normal >= 0 || stage.extras >= 0 || alpha_attribute >= 0;
 }
 
 /// Sets `surface` to that of the triangle, with the colours of `draw`. @pre the batch is empty
@@ -95,12 +103,15 @@ HWY_INLINE void begin_surface(const TileContext& context, BatchSurface& surface,
   }
   surface.clamps_to_range = attributes_clamp_to_range(context, draw);
   surface.interpolates_colors = draw.source == ColorSource::interpolated && !is_index;
-  surface.clamps_colors = surface.interpolates_colors && draw.topology == Topology::lines;
+  const bool may_exceed_unit = draw.topology == Topology::lines || draw.stage != nullptr;
+  surface.clamps_colors = surface.interpolates_colors && may_exceed_unit;
   surface.texture = texture_of(draw, triangle.back);
   surface.gathers_coordinates = surface.texture != nullptr && surface.texture->levels != nullptr;
   surface.coordinates.triangle = nullptr;
   surface.stage = draw.stage;
   surface.alpha_attribute = draw.alpha_attribute[face];
+  surface.gathers_stage_inputs =
+      surface.stage != nullptr && has_interpolated_inputs(*surface.stage, surface.alpha_attribute);
   surface.alpha = surface.is_constant ? draw.color[face][3] : draw.alpha[face];
   surface.packing = BatchSurface::Packing::unit;
   if (!is_lit && draw.scaled_colors) surface.packing = BatchSurface::Packing::levels;
@@ -160,11 +171,11 @@ inline HWY_NOINLINE void gather_stage_inputs(const TileContext& context, const B
 }
 
 /// Number of attributes, if gather_block_span() has a specialization for it: 1, 3 or 6 in adjacent arrays,
-/// without clamping to a range, texture coordinates and fragment stage. Otherwise 0.
+/// without clamping to a range, texture coordinates and inputs of a stage. Otherwise 0.
 HWY_INLINE int known_count(const BatchSurface& surface) {
   const int count = surface.attribute_count;
   const bool has_special_count = count == 1 || count == 3 || count == 6;
-  const bool gathers_others = surface.gathers_coordinates || surface.stage != nullptr;
+  const bool gathers_others = surface.gathers_coordinates || surface.gathers_stage_inputs;
   const bool is_plain = surface.adjacent && !surface.clamps_to_range && !gathers_others;
   return has_special_count && is_plain ? count : 0;
 }
@@ -207,7 +218,7 @@ HWY_INLINE void gather_values(const TileContext& context, BatchSurface& surface,
     }
     if (kCount == 0 && surface.gathers_coordinates)
       gather_coordinates(context, surface, triangle, weights, mask, point);
-    if (kCount == 0 && surface.stage != nullptr)
+    if (kCount == 0 && surface.gathers_stage_inputs)
       gather_stage_inputs(context, surface, triangle, weights, mask, point);
   }
 }

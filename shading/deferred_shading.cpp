@@ -183,7 +183,7 @@ HWY_INLINE void gather_pixel_inputs(const TileContext& context, PixelBatch& pixe
 
 /// Whether pixels need more than the colours of their cells.
 HWY_INLINE bool gathers_pixel_inputs(const BatchSurface& surface) {
-  return surface.gathers_coordinates || surface.stage != nullptr;
+  return surface.gathers_coordinates || surface.gathers_stage_inputs;
 }
 
 /// Stores the lit colours of the cells in the pixels of the blocks. @pre no texture, no dither and no stage

@@ -32,6 +32,7 @@ void set_varyings(TileDraw& draw, const DrawPlan& plan) {
     for (int c = 0; c < 3; ++c) draw.fields[offset + c] = static_cast<std::uint8_t>(field + c);
   };
   const bool lit_per_pixel = plan.source == ColorSource::per_pixel;
+  const bool alpha_varies = plan.vertex_alpha || plan.folds_texture();
   if (lit_per_pixel) {
     map(layout.normal, kNormalX);
     map(layout.position, kPositionX);
@@ -39,7 +40,7 @@ void set_varyings(TileDraw& draw, const DrawPlan& plan) {
   }
   for (int face = 0; face < 2; ++face) {
     if (!lit_per_pixel && layout.color[face] >= 0) draw.color_attribute[face] = layout.color[face];
-    if (!plan.flat) draw.alpha_attribute[face] = layout.alpha[face];
+    if (!plan.flat && alpha_varies) draw.alpha_attribute[face] = layout.alpha[face];
   }
 }
 
