@@ -1,9 +1,10 @@
 // The scenes of `tessera gallery`, drawn by the engine and by the reference renderer at half their size, by
 // the rule of picture_harness.h. Options of the command, such as displays and their modes, are left out:
-// scenes of which only these differ are compared once.
+// scenes of which only these differ are compared once. Animations are compared in one picture between keys.
 #include "tests/pictures/picture_harness.h"
 #include "tests/reference/render.h"
 
+#include "engine/program/scene/animate.h"
 #include "engine/program/scene/scene.h"
 
 #include <algorithm>
@@ -23,6 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFolder = TESSERA_SOURCE_DIR "/engine/program/gallery";
+constexpr double kTime = 0.61;  // 0 to 1
 
 std::string scene_text(const std::string& name) {
   std::ifstream stream(std::string(kFolder) + "/" + name + ".json");
@@ -64,8 +66,9 @@ Json at_half_size(Json scene) {
   return scene;
 }
 
-Rgb draw_by_engine(const std::string& text) {
-  const program::Scene scene = program::parse_scene(text, "gallery", kFolder);
+Rgb draw_by_engine(Json json) {
+  program::json::animate(json, kTime, "gallery");
+  const program::Scene scene = program::parse_scene(json.dump(), "gallery", kFolder);
   FrameBuffer buffer(scene.framebuffer);
   Frame frame(buffer);
   record(scene, frame);
@@ -82,15 +85,15 @@ Rgb draw_by_engine(const std::string& text) {
 class GalleryPicture : public testing::TestWithParam<std::string> {};
 
 TEST_P(GalleryPicture, MatchesReference) {
-  const std::string text = at_half_size(Json::parse(scene_text(GetParam()))).dump();
+  const Json scene = at_half_size(Json::parse(scene_text(GetParam())));
   ThreeWayReport report;
   report.name = "gallery_" + GetParam();
   report.mesa_cannot = "is compared with tests/scenes";
-  const reference::Picture right = reference::render(reference::parse_scene(text, kFolder));
+  const reference::Picture right = reference::render(reference::parse_scene(scene.dump(), kFolder, kTime));
   report.width_px = right.width_px;
   report.height_px = right.height_px;
   report.reference = right.rgb;
-  report.engine = draw_by_engine(text);
+  report.engine = draw_by_engine(scene);
   report.engine_to_reference =
       reference::compare(report.reference, report.engine, right.width_px, right.height_px);
   if (!report.is_good()) ADD_FAILURE() << report.text() << "\n  pictures in " << write_pictures(report);

@@ -8,13 +8,13 @@
 namespace tessera::reference {
 namespace {
 
-// {"keys": [[t, value], ...]} may replace any number; a still picture uses t = 0.
-void resolve_keys(Json& json) {
+// {"keys": [[t, value], ...]} may replace any number.
+void resolve_keys(Json& json, double time) {
   const bool has_only_keys = json.is_object() && json.size() == 1 && json.contains("keys");
   if (has_only_keys && json["keys"].is_array() && !json["keys"].empty()) {
     const Json keys = json["keys"];
     std::size_t after = 0;
-    while (after < keys.size() && keys[after].at(0).get<double>() < 0) ++after;
+    while (after < keys.size() && keys[after].at(0).get<double>() < time) ++after;
     if (after == 0 || after == keys.size()) {
       json = keys[after == 0 ? 0 : after - 1].at(1);
     } else {
@@ -22,12 +22,12 @@ void resolve_keys(Json& json) {
       const double t1 = keys[after].at(0);
       const double v0 = keys[after - 1].at(1);
       const double v1 = keys[after].at(1);
-      json = v0 + (v1 - v0) * (0 - t0) / (t1 - t0);
+      json = v0 + (v1 - v0) * (time - t0) / (t1 - t0);
     }
     return;
   }
   if (json.is_structured())
-    for (Json& member : json) resolve_keys(member);
+    for (Json& member : json) resolve_keys(member, time);
 }
 
 LightModel parse_light_model(const Value& v) {
@@ -90,9 +90,9 @@ std::vector<Light> parse_lights(const Value& v) {
   return lights;
 }
 
-Scene parse_scene(const std::string& json_text, const std::string& directory) {
+Scene parse_scene(const std::string& json_text, const std::string& directory, double time) {
   Json json = Json::parse(json_text, nullptr, /*allow_exceptions=*/true, /*ignore_comments=*/true);
-  resolve_keys(json);
+  resolve_keys(json, time);
   ObjectReader reader({&json, ""});
   if (integer(reader.require("tessera"), 1, 1) != 1) fail("/tessera", "1");
 

@@ -293,6 +293,7 @@ struct Scene {
 Scene load_scene(const std::string& path);
 
 /// Parses JSON text; paths in it are relative to `directory`.
-Scene parse_scene(const std::string& json_text, const std::string& directory);
+/// @param time  0 to 1: that of the picture of an animation
+Scene parse_scene(const std::string& json_text, const std::string& directory, double time = 0);
 
 }  // namespace tessera::reference

@@ -61,7 +61,7 @@ RenderRequest render_request(const GalleryPicture& picture) {
   add_render(program, request);
   std::vector<std::string> words(picture.options.rbegin(),
                                  picture.options.rend());  // CLI11 takes the last first
-  words.emplace_back("render");
+  words.insert(words.end(), {picture.picture_file(), "-o", "render"});
   program.parse(std::move(words));
   return request;
 }

@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,11 +34,31 @@ std::vector<std::string> all_between(const std::string& text, const std::string&
   return found;
 }
 
+std::string text_of(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 /// Names of the scenes in the sources.
 std::set<std::string> scenes_in_sources() {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(TESSERA_SOURCE_DIR "/engine/program/gallery"))
     if (entry.path().extension() == ".json") names.insert(entry.path().stem().string());
+  return names;
+}
+
+/// Pictures whose commands have options or whose scenes have stages, and every eighth of the others.
+std::vector<std::string> pictures_of_all_kinds() {
+  const std::string folder = TESSERA_SOURCE_DIR "/engine/program/gallery/";
+  std::vector<std::string> names;
+  std::istringstream list(text_of(folder + "gallery.txt"));
+  int others = 0;
+  for (std::string line; std::getline(list, line);) {
+    const std::string name = line.substr(0, line.find(' '));
+    if (name.empty() || name == "#" || name == "==" || name == "+") continue;
+    const bool is_special = contains(line, " --") || contains(text_of(folder + name + ".json"), "\"stages\"");
+    if (is_special || others++ % 8 == 0) names.push_back(name);
+  }
   return names;
 }
 
@@ -55,37 +79,46 @@ class GalleryProgram : public Program {
     return names;
   }
   Picture picture(const std::string& name) const { return read_picture((folder_ / name).string()); }
+  /// Width of a PNG file, from its header.
+  int width_of(const std::string& name) const {
+    const std::string file = content(name);
+    int width = 0;
+    for (std::size_t i = 16; i < 20; ++i) width = width << 8 | static_cast<std::uint8_t>(file.at(i));
+    return width;
+  }
+  /// Runs the page's commands for the pictures, and compares their files with those of the folder.
+  void expect_same_bytes_from_commands(const std::string& gallery, const std::vector<std::string>& names) {
+    const std::string page = content(gallery + "/index.html");
+    std::filesystem::create_directories(folder_ / "alone");
+    for (const std::string& name : names) {
+      const std::vector<std::string> commands =
+          all_between(page, "<code>tessera render " + name + ".json -o ", "</code>");
+      ASSERT_EQ(commands.size(), 1u) << name;
+      const std::string line = "cd '" + (folder_ / gallery).string() + "' && '" TESSERA_PROGRAM "' render " +
+                               name + ".json -o ../../alone/" + commands.front();
+      EXPECT_EQ(std::system(line.c_str()), 0) << line;
+      const std::string file = "/" + name + ".png";
+      EXPECT_TRUE(content("alone" + file) == content(gallery + file)) << name;
+    }
+  }
 };
 
-/// Every fourth picture, from the parameter on.
-class GalleryCommands : public GalleryProgram, public testing::WithParamInterface<int> {};
-
-TEST_P(GalleryCommands, DrawTheSameBytes) {
-  std::string names;
-  int index = 0;
-  for (const std::string& name : scenes_in_sources())
-    if (index++ % 4 == GetParam()) names += " " + name;
-  ASSERT_EQ(run("gallery a/b" + names).code, 0);
-  const std::vector<std::string> commands =
-      all_between(content("a/b/index.html"), "<code>tessera ", "</code>");
-  EXPECT_EQ(commands.size(), static_cast<std::size_t>(std::ranges::count(names, ' ')));
-  std::filesystem::create_directories(folder_ / "alone");
-  for (std::string command : commands) {
-    const std::string file = all_between(command, "render ", ".json").front() + ".png";
-    command.replace(command.find("-o " + file), 3, "-o ../../alone/");
-    const std::string line = "cd '" + (folder_ / "a/b").string() + "' && '" TESSERA_PROGRAM "' " + command;
-    EXPECT_EQ(std::system(line.c_str()), 0) << command;
-    EXPECT_TRUE(content("alone/" + file) == content("a/b/" + file)) << command;
-  }
+// Chunks of animated PNG: acTL with the number of frames, and an fcTL before each frame.
+TEST_F(GalleryProgram, AnimationsAreAnimatedPng) {
+  ASSERT_EQ(run("gallery g zoom").code, 0);
+  const std::string file = content("g/zoom.png");
+  EXPECT_TRUE(contains(file, std::string("acTL\0\0\0\x18", 8))) << "24 frames";
+  EXPECT_EQ(all_between(file, "fcTL", "IEND").size(), 24u);
+  EXPECT_TRUE(contains(content("g/index.html"), "zoom.json -o zoom.png --frames 24 --delay 70</code>"));
+  EXPECT_EQ(width_of("g/zoom.png"), 320);
 }
-
-INSTANTIATE_TEST_SUITE_P(Quarters, GalleryCommands, testing::Range(0, 4));
 
 // The lower right part of the picture shows other values, and labels cover the lowest rows of each part.
 TEST_F(GalleryProgram, LightingIsEqualInEyeAndWorldSpace) {
   constexpr int kPartWidth = 319, kPartHeight = 239, kLabelRows = 24;
-  ASSERT_EQ(run("gallery g lighting_spaces").code, 0);
-  const Picture drawn = picture("g/lighting_spaces.png");
+  const std::string scene = TESSERA_SOURCE_DIR "/engine/program/gallery/lighting_spaces.json";
+  ASSERT_EQ(run("render '" + scene + "' -o spaces.ppm").code, 0);
+  const Picture drawn = picture("spaces.ppm");
   const auto level = [&](int x, int y, int c) {
     return int{drawn.rgba[static_cast<std::size_t>(4 * (y * drawn.width + x) + c)]};
   };
@@ -103,7 +136,7 @@ TEST_F(GalleryProgram, LightingIsEqualInEyeAndWorldSpace) {
   EXPECT_GT(highest - lowest, 150);
 }
 
-TEST_F(GalleryProgram, WritesAPageThatNeedsOnlyItsFolder) {
+TEST_F(GalleryProgram, WritesAPageThatNeedsOnlyItsFolderAndWhoseCommandsDrawTheSameBytes) {
   const Result result = run("gallery a/b");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.err, "");
@@ -119,6 +152,10 @@ TEST_F(GalleryProgram, WritesAPageThatNeedsOnlyItsFolder) {
   }
   EXPECT_TRUE(has_several_colors(picture("a/b/index.png")));
   EXPECT_TRUE(contains(page, "aspect-ratio: 1.3333")) << "modes have pixels that are not square";
+  EXPECT_EQ(all_between(page, "<code>tessera render ", "</code>").size(), scenes_in_sources().size());
+  const std::vector<std::string> compared = pictures_of_all_kinds();
+  EXPECT_GE(compared.size(), 25u);
+  expect_same_bytes_from_commands("a/b", compared);
 }
 
 TEST_F(GalleryProgram, ReplacesItsOwnFilesOnly) {
@@ -142,11 +179,11 @@ TEST_F(GalleryProgram, ReplacesItsOwnFilesOnly) {
 
 TEST_F(GalleryProgram, KeepsPicturesOfEarlierRunsOnItsPage) {
   ASSERT_EQ(run("gallery g bits_02").code, 0);
-  const int width_of_one = picture("g/index.png").width;
+  const int width_of_one = width_of("g/index.png");
   EXPECT_LT(width_of_one, 700) << "one column of at most 640";
   const Result second = run("gallery g bits_01");
   EXPECT_EQ(second.out, "1 picture in g; index.html shows 2\n");
-  EXPECT_GT(picture("g/index.png").width, width_of_one);
+  EXPECT_GT(width_of("g/index.png"), width_of_one);
   const std::string page = content("g/index.html");
   EXPECT_LT(page.find("bits_01.png"), page.find("bits_02.png")) << "the order is that of the list";
   std::filesystem::remove(folder_ / "g/bits_02.png");
