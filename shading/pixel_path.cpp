@@ -9,7 +9,7 @@ namespace {
 using Kind = PixelPath::Kind;
 
 bool has_packed_color(const TileDraw& draw) {
-  if (draw.texture != nullptr) return false;
+  if (draw.texture != nullptr || draw.stage != nullptr) return false;
   return draw.source == ColorSource::constant || draw.source == ColorSource::per_vertex_packed ||
          draw.source == ColorSource::per_triangle_packed;
 }
@@ -69,7 +69,7 @@ bool triangles_take_operations(const PixelPathFrame& frame, const TileDraw& draw
 /// Whether the draw has a texture, no operations, and RGB colours without lighting. One lane gains nothing.
 bool can_texture_immediately(const PixelPathFrame& frame, const TileDraw& draw) {
   if (frame.isa == InstructionSet::scalar || !frame.shade_immediately || frame.samples > 1) return false;
-  if (draw.ops != nullptr || draw.dither != nullptr) return false;
+  if (draw.ops != nullptr || draw.dither != nullptr || draw.stage != nullptr) return false;
   if (draw.texture == nullptr || draw.texture->levels == nullptr) return false;
   if (frame.layout.index || frame.layout.luminance || frame.layout.alpha_bits != 0) return false;
   if (draw.index[0] || draw.index[1]) return false;

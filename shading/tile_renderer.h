@@ -83,8 +83,9 @@ struct TileDraw {
   /// Dither of the visible pixels; null: none. @pre if set: without `ops`, deferred, one sample per pixel,
   /// colours 0..1
   const ColorDither* dither = nullptr;
-  /// Null: none. @pre if set: `ops` is set, colours are 0..1 and no indices; if it runs before the tests,
-  /// reads depth in frames with several samples, or `flat` is set: without `deferred`
+  /// Null: none. @pre if set: colours are 0..1 and no indices. Without `ops` the draw is deferred and the
+  /// stage reads no depth. The draw is not deferred if the stage runs before the tests, reads depth in frames
+  /// with several samples, or `flat` is set.
   const TileFragmentStage* stage = nullptr;
   /// For captures: the draw with the colours that `stage` reads; null: this one.
   const TileDraw* colors_of = nullptr;

@@ -9,9 +9,11 @@
 #include "engine/plan/eye_space.h"
 #include "engine/plan/fragment_plan.h"
 #include "engine/plan/pixel_plan.h"
+#include "engine/plan/vertex_facts.h"
 #include "engine/plan/view_facts.h"
 #include "engine/record/matrix.h"
 #include "raster/fixed_point.h"
+#include "shading/fragment_scalar.h"
 
 namespace tessera::detail {
 namespace {
@@ -141,7 +143,9 @@ void plan_operations(DrawPlan& plan, const RecordedDraw& draw, const FrameBuffer
   }
   if (plan.has_offset()) notes.active(Effect::polygon_offset);
   if (plan.outlines) notes.active(Effect::polygon_mode);
-  plan.has_ops = fragments.needed || plan.has_offset() || plan.outlines || plan.fragment_stage.has_value();
+  const bool has_other_ops = fragments.needed || plan.has_offset() || plan.outlines;
+  plan.has_only_stage = plan.fragment_stage && !has_other_ops;
+  plan.has_ops = has_other_ops || plan.fragment_stage.has_value();
   const bool has_samples = target.format.samples > 1;
   const bool fills_triangles = plan.topology == Topology::triangles && !plan.outlines && !draw.pixels;
   const bool only_tests_stencil =
@@ -169,6 +173,16 @@ void plan_shading(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferSta
   plan.float_colors |= plan.has_ops && plan.texture.use == TexturePlan::Use::texels;
   plan_color(plan, draw, target.layout,
              {.sampled = target.format.samples > 1, .elide = options.elide, .isa = options.isa}, notes);
+}
+
+/// An alpha that is the same at all vertices is not interpolated for the fragment stage: interpolation keeps
+/// a constant exactly.
+void fold_stage_alpha(DrawPlan& plan, const MeshArrays& mesh) {
+  if (!plan.fragment_stage || !plan.vertex_alpha || mesh.vertices == 0) return;
+  const std::optional<float> alpha = equal_alpha(mesh);
+  if (!alpha) return;
+  plan.vertex_alpha = false;
+  plan.alpha[0] = plan.alpha[1] = clamp_unit(*alpha);
 }
 
 /// Whether a triangle that fails the depth test at every pixel changes nothing, and its depths are those of
@@ -302,6 +316,7 @@ void plan_draw(DrawPlan& plan, const RecordedDraw& draw, const FrameBufferState&
   }
   if (draw.pixels) plan_pixel_colors(plan, *draw.pixels, notes);
   else plan_shading(plan, draw, target, options, notes);
+  if (options.elide) fold_stage_alpha(plan, draw.mesh);
   if (plan.texture.use == TexturePlan::Use::one_color)
     notes.active(Effect::texture,
                  plan.textures_per_pixel ? EffectReason::one_color_per_pixel : EffectReason::folded);

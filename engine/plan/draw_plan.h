@@ -99,6 +99,7 @@ struct DrawPlan {
   // User stages.
   const VertexStage* vertex_stage = nullptr;  ///< null: none
   std::optional<TileFragmentStage> fragment_stage;
+  bool has_only_stage = false;         ///< fragments go through the stage and the depth test alone
   bool stage_needs_fragments = false;  ///< the fragment stage cannot run on visible pixels alone
 
   VaryingLayout varyings;

@@ -107,6 +107,9 @@ TileDraw tile_draw(const GeometryDraw& geometry) {
   }
   if (plan.has_ops) set_fragment_ops(draw, plan, buffers);
   if (plan.fragment_stage) draw.stage = &*plan.fragment_stage;
+  // Visible pixels are found as without a stage.
+  const bool stores_depths = plan.fragment_stage && plan.fragment_stage->stage.reads.depth;
+  if (plan.has_only_stage && plan.deferred && !stores_depths) draw.ops = nullptr;
   if (plan.defers_dither) draw.dither = plan.ops.dither;
   set_varyings(draw, plan);
   return draw;
