@@ -157,16 +157,18 @@ HWY_INLINE void clamp_colors(ShadingBatch& batch, int count) {
 }
 
 /// Applies the texture environment to colours and texels of the batch.
-/// @param alpha  alpha of the points, in and out; null: not needed
-inline HWY_NOINLINE void apply_texture_env(const DrawTexture& texture, ShadingBatch& batch, float* alpha,
-                                           int count) {
+/// @param kAlpha  alpha is computed, too
+/// @param alpha   alpha of the points, in and out; null without kAlpha
+template <bool kAlpha>
+HWY_NOINLINE void apply_texture_env(const DrawTexture& texture, ShadingBatch& batch, float* alpha,
+                                    int count) {
   for (int point = 0; point < count; point += kLanes) {
     Colors colors{{hn::Zero(kFloat), hn::Zero(kFloat), hn::Zero(kFloat), splat(1.0f)}};
-    if (alpha != nullptr) colors.c[3] = hn::Load(kFloat, alpha + point);
+    if (kAlpha) colors.c[3] = hn::Load(kFloat, alpha + point);
     for (int c = 0; c < 3; ++c) colors.c[c] = hn::Load(kFloat, batch.field[kColorR + c] + point);
     colors = texture_env_lanes(texture, colors, texels_at(texture, batch, point));
     for (int c = 0; c < 3; ++c) hn::Store(colors.c[c], kFloat, batch.field[kColorR + c] + point);
-    if (alpha != nullptr) hn::Store(colors.c[3], kFloat, alpha + point);
+    if (kAlpha) hn::Store(colors.c[3], kFloat, alpha + point);
   }
 }
 
@@ -179,8 +181,10 @@ HWY_INLINE void evaluate_colors(TileContext& context, const BatchSurface& surfac
   if (surface.program != nullptr) light_points_lanes(*surface.program, batch, count);
   if (surface.clamps_colors) clamp_colors(batch, count);
   if (surface.gathers_coordinates) sample_texture_lanes(*surface.texture->levels, batch, count);
-  float* const alpha = surface.stage != nullptr ? context.memory.stage.field[kStageAlpha] : nullptr;
-  if (surface.texture != nullptr) apply_texture_env(*surface.texture, batch, alpha, count);
+  if (surface.texture == nullptr) return;
+  if (surface.stage != nullptr)
+    apply_texture_env<true>(*surface.texture, batch, context.memory.stage.field[kStageAlpha], count);
+  else apply_texture_env<false>(*surface.texture, batch, nullptr, count);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -95,9 +95,14 @@ struct FragmentTriangle {
   void sample_block(int bx, int by, std::uint32_t bits);
   std::uint32_t test(const TileAttachments& sample, int bx, int by, const BlockFragments& block);
   void store_ids(int index, const std::uint32_t* passed, const BlockFragments* blocks);
+  template <bool kBeforeTests>
   void evaluate_block(int bx, int by, std::uint32_t bits);
   bool run_stage_before_tests(int bx, int by, const BlockFragments* blocks, BlockFragments* kept);
   std::uint32_t run_stage_on_block(int bx, int by, const Int* keys, std::uint32_t bits);
+  void store_alpha(int bx, int by) const;
+  void draw_staged(int bx, int by, const BlockFragments* blocks);
+  std::uint32_t run_tests(int bx, int by, const BlockFragments* blocks, std::uint32_t* passed);
+  void store_colors(int bx, int by, const std::uint32_t* passed, std::uint32_t passed_any);
   void capture_block_normals(int bx, int by, std::uint32_t bits);
   Float alpha_of_chunk(int bx, int by, int chunk) const;
   Barycentric at(int bx, int by, int chunk) const;

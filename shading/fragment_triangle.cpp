@@ -16,11 +16,7 @@ namespace tessera::detail {
 namespace HWY_NAMESPACE {
 
 HWY_NOINLINE void FragmentTriangle::operator()(int bx, int by, const BlockFragments* blocks) {
-  BlockFragments kept[kMaxSamples];
-  if (runs_stage_first) {
-    if (!run_stage_before_tests(bx, by, blocks, kept)) return;
-    blocks = kept;
-  }
+  if (HWY_UNLIKELY(runs_stage_first)) return draw_staged(bx, by, blocks);
   if (tests_texels()) {
     std::uint32_t covered = 0;
     for (int s = 0; s < context.samples; ++s)
@@ -29,29 +25,53 @@ HWY_NOINLINE void FragmentTriangle::operator()(int bx, int by, const BlockFragme
     if (covered == 0) return;
     sample_block(bx, by, covered);
   }
-  std::uint32_t passed[kMaxSamples];  // pixels that passed the tests, per sample
-  std::uint32_t passed_any = 0;       // pixels that passed at any sample
+  std::uint32_t passed[kMaxSamples];
+  const std::uint32_t passed_any = run_tests(bx, by, blocks, passed);
+  const ColorWrite color_write = draw.path.color_write;
+  if (passed_any == 0 || color_write == ColorWrite::none) return;
+  visible = true;
+  if (color_write == ColorWrite::deferred) return store_ids(context.block_index(bx, by), passed, blocks);
+  if (evaluates_colors) evaluate_block<false>(bx, by, passed_any);
+  if (HWY_UNLIKELY(draw.stage != nullptr))
+    context.counts.non_finite_fragments +=
+        static_cast<std::uint64_t>(std::popcount(run_stage_on_block(bx, by, blocks[0].keys, passed_any)));
+  store_colors(bx, by, passed, passed_any);
+}
+
+/// The fragments of a draw whose stage runs before the tests.
+HWY_NOINLINE void FragmentTriangle::draw_staged(int bx, int by, const BlockFragments* blocks) {
+  BlockFragments kept[kMaxSamples];
+  if (!run_stage_before_tests(bx, by, blocks, kept)) return;
+  std::uint32_t passed[kMaxSamples];
+  const std::uint32_t passed_any = run_tests(bx, by, kept, passed);
+  if (passed_any == 0 || draw.path.color_write == ColorWrite::none) return;
+  visible = true;
+  if (draw.captures_normals) capture_block_normals(bx, by, passed_any);
+  store_colors(bx, by, passed, passed_any);
+}
+
+/// Runs the tests of all samples.
+/// @param passed  receives the pixels that passed, per sample
+/// @return  pixels that passed at any sample
+HWY_INLINE std::uint32_t FragmentTriangle::run_tests(int bx, int by, const BlockFragments* blocks,
+                                                     std::uint32_t* passed) {
+  std::uint32_t passed_any = 0;
   for (int s = 0; s < context.samples; ++s) {
     passed[s] = test(context.sample[s], bx, by, blocks[s]);
     passed_any |= passed[s];
   }
-  const ColorWrite color_write = draw.path.color_write;
-  if (passed_any == 0 || color_write == ColorWrite::none) return;
-  visible = true;
-  const int index = context.block_index(bx, by);
-  if (color_write == ColorWrite::deferred) return store_ids(index, passed, blocks);
+  return passed_any;
+}
+
+/// Stores the evaluated colours of the pixels that passed.
+HWY_INLINE void FragmentTriangle::store_colors(int bx, int by, const std::uint32_t* passed,
+                                               std::uint32_t passed_any) {
   context.counts.shaded_pixels += static_cast<std::uint64_t>(std::popcount(passed_any));
-  if (runs_stage_first) {
-    if (draw.captures_normals) capture_block_normals(bx, by, passed_any);
-  } else if (evaluates_colors) {
-    evaluate_block(bx, by, passed_any);
-    if (draw.stage != nullptr)
-      context.counts.non_finite_fragments +=
-          static_cast<std::uint64_t>(std::popcount(run_stage_on_block(bx, by, blocks[0].keys, passed_any)));
-  }
+  const int index = context.block_index(bx, by);
+  const bool is_constant = draw.path.color_write == ColorWrite::constant;
   for (int chunk = 0; chunk < kChunksPerBlock; ++chunk) {
     if (chunk_bits(passed_any, chunk) == 0) continue;
-    const Colors source = color_write == ColorWrite::constant ? Colors{} : colors(bx, by, chunk);
+    const Colors source = is_constant ? Colors{} : colors(bx, by, chunk);
     const Float threshold = thresholds(bx, by, chunk);
     for (int s = 0; s < context.samples; ++s) {
       const std::uint32_t lanes = chunk_bits(passed[s], chunk);
@@ -136,6 +156,9 @@ HWY_INLINE void FragmentTriangle::store_ids(int index, const std::uint32_t* pass
 }
 
 /// Evaluates red, green and blue of the block's pixels, the set bits, into the batch.
+/// @param kBeforeTests  for a stage that runs before the tests: a copy of its own, so that the other is
+/// inlined
+template <bool kBeforeTests>
 HWY_INLINE void FragmentTriangle::evaluate_block(int bx, int by, std::uint32_t bits) {
   ShadingBatch& batch = context.memory.batch;
   if (has_given_colors && flat_color != nullptr) {
@@ -158,17 +181,19 @@ HWY_INLINE void FragmentTriangle::evaluate_block(int bx, int by, std::uint32_t b
     });
   }
   const bool is_sampled = tests_texels();  // before the alpha test
-  const bool writes_given_color = draw.path.color_write == ColorWrite::constant && !runs_stage_first;
+  const bool writes_given_color = draw.path.color_write == ColorWrite::constant && !kBeforeTests;
   const bool uses_texels = texture != nullptr && !writes_given_color;
   if (uses_texels && !is_sampled) sample_block(bx, by, bits);
-  if (draw.stage != nullptr) {
-    for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
-      hn::Store(surface.is_constant ? splat(surface.alpha) : untextured_alpha(bx, by, chunk), kFloat,
-                context.memory.stage.field[kStageAlpha] + chunk * kLanes);
-  }
+  if (HWY_UNLIKELY(draw.stage != nullptr)) store_alpha(bx, by);
   evaluate_colors(context, surface, kBlockPixels);
-  if (draw.captures_normals && !runs_stage_first)
-    store_normals(context, context.block_index(bx, by), bits, 0);
+  if (draw.captures_normals && !kBeforeTests) store_normals(context, context.block_index(bx, by), bits, 0);
+}
+
+/// Stores the alpha of the block's pixels, before texture, for the fragment stage.
+HWY_NOINLINE void FragmentTriangle::store_alpha(int bx, int by) const {
+  for (int chunk = 0; chunk < kChunksPerBlock; ++chunk)
+    hn::Store(surface.is_constant ? splat(surface.alpha) : untextured_alpha(bx, by, chunk), kFloat,
+              context.memory.stage.field[kStageAlpha] + chunk * kLanes);
 }
 
 /// Runs the fragment stage on the block, whose colours are evaluated.
@@ -222,7 +247,7 @@ HWY_NOINLINE bool FragmentTriangle::run_stage_before_tests(int bx, int by, const
       bits |= mask_bits(kInt, mask) << (chunk * kLanes);
     }
   if (bits == 0) return false;
-  evaluate_block(bx, by, bits);
+  evaluate_block<true>(bx, by, bits);
   std::uint32_t non_finite = run_stage_on_block(bx, by, blocks[0].keys, bits);
   alignas(64) std::int32_t keys[kBlockPixels] = {};
   if (stage.writes_depth) {

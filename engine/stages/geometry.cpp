@@ -37,6 +37,17 @@ void load_vertex_colors(const GeometryDraw& draw, ShadingBatch& batch, std::size
     for (std::size_t c = 0; c < 3; ++c) batch.field[kVertexR + c][i] = draw.mesh->color(vertex(i), c);
 }
 
+/// Calls store(i, alpha) with the alpha of vertex(i) for each point i.
+template <class VertexOf, class Store>
+void load_vertex_alpha(const GeometryDraw& draw, std::size_t count, const VertexOf& vertex,
+                       const Store& store) {
+  if (draw.writes().color) {
+    for (std::size_t i = 0; i < count; ++i) store(i, draw.buffers->staged.colors.data()[4 * vertex(i) + 3]);
+  } else {
+    for (std::size_t i = 0; i < count; ++i) store(i, draw.mesh->color(vertex(i), 3));
+  }
+}
+
 /// Marks vertices with a value that is not finite: their primitives are dropped, as for positions.
 /// @return  the marked outcodes, or 0
 std::uint8_t mark_non_finite(StridedFloats values, std::size_t each, std::size_t count,
@@ -179,8 +190,8 @@ template <class VertexOf>
 Batch batch_of(const GeometryDraw& draw, std::size_t first, std::size_t count, bool triangles,
                const VertexOf& vertex) {
   Batch points{.first = first, .count = count, .triangles = triangles, .alpha = {}};
-  for (std::size_t i = 0; i < count && draw.plan->float_colors && draw.plan->vertex_alpha; ++i)
-    points.alpha[i] = draw.color(vertex(i), 3);
+  if (draw.plan->float_colors && draw.plan->vertex_alpha)
+    load_vertex_alpha(draw, count, vertex, [&](std::size_t i, float alpha) { points.alpha[i] = alpha; });
   return points;
 }
 
@@ -200,9 +211,10 @@ void store_lighting_inputs(const GeometryDraw& draw, const ShadingBatch& batch, 
   store(layout.position, kPositionX);
   store(layout.color[0], kVertexR);
   if (layout.alpha[0] < 0) return;
-  float* const alpha = varying(draw, first, layout.alpha[0]);
-  for (std::size_t i = 0; i < count; ++i)
-    alpha[i * stride] = draw.color(first + i, 3);  // clamped at the pixel, like the colour
+  float* const out = varying(draw, first, layout.alpha[0]);
+  load_vertex_alpha(
+      draw, count, [first](std::size_t i) { return first + i; },
+      [&](std::size_t i, float alpha) { out[i * stride] = alpha; });  // clamped at the pixel, like the colour
 }
 
 /// Stores the inputs of the fragment stage that lighting does not store.
@@ -230,8 +242,9 @@ void store_stage_inputs(const GeometryDraw& draw, const ShadingBatch& batch, std
 
 void store_texcoords(const GeometryDraw& draw, std::size_t first, std::size_t count) {
   const std::size_t stride = varying_stride(*draw.plan);
+  const StridedFloats texcoords = draw.texcoords();
   float* out = varying(draw, first, draw.plan->varyings.texcoord);
-  for (std::size_t i = 0; i < count; ++i, out += stride) std::copy_n(draw.texcoords().at(first + i), 2, out);
+  for (std::size_t i = 0; i < count; ++i, out += stride) std::copy_n(texcoords.at(first + i), 2, out);
 }
 
 /// Stores eye-space normals for captures, independent of shading.

@@ -75,10 +75,6 @@ struct GeometryDraw {
     const bool is_read = plan->vertex_stage != nullptr && plan->vertex_stage->reads.normal;
     return is_read || (plan->varyings.stage_normal >= 0 && !writes().normal);
   }
-  /// Component c of a vertex's colour.
-  float color(std::size_t vertex, std::size_t c) const {
-    return writes().color ? buffers->staged.colors.data()[4 * vertex + c] : mesh->color(vertex, c);
-  }
   StridedFloats texcoords() const {
     return writes().texcoord ? StridedFloats{buffers->staged.texcoords.data(), 2} : mesh->texcoords;
   }
