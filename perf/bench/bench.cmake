@@ -10,7 +10,7 @@ else()
   list(APPEND tessera_bench_sources perf/bench/no_mesa.cpp)
 endif()
 list(APPEND tessera_bench_sources perf/rivals/literal_shaders.cpp
-  engine/program/cli/scene_input.cpp engine/program/cli/progress.cpp ${tessera_command_line_sources})
+  engine/program/cli/bitmap_font.cpp engine/program/cli/scene_input.cpp engine/program/cli/progress.cpp ${tessera_command_line_sources})
 add_library(tessera_bench_parts OBJECT ${tessera_bench_sources})
 # Internals that the library does not export: the worker pool and plane stores.
 tessera_add_objects(tessera_bench_internals

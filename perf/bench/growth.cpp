@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "perf/bench/columns.h"
 #include "perf/bench/mesh_workloads.h"
 #include "perf/bench/text.h"
 
@@ -50,7 +51,7 @@ Growth measured(const std::string& quantity, const std::string& description, con
                               .threads = setup.options.threads};
     const Row row = measure(std::vector{candidate}, options, counters).front();
     if (!row.fault.empty()) throw Error(row.name + ": " + row.fault);
-    growth.points.push_back({step.count, row.ms.median, static_cast<double>(row.peak_bytes) * 1e-6});
+    growth.points.push_back({step.count, row.ms.median, static_cast<double>(row.peak_bytes) / (1 << 20)});
   }
   return growth;
 }
@@ -128,21 +129,55 @@ std::vector<Growth> measure_growth(const WorkloadSetup& setup, const MeasureOpti
                    counters)};
 }
 
+namespace {
+
+constexpr Column kGrowthColumns[] = {
+    {"median ms", "time of a frame after the warm-up, milliseconds: half of the frames took at most this"},
+    {"peak MiB",
+     "growth of memory up to the end of the first frame, 2^20 bytes: mesh, planes, image included"},
+    {"ns per added", "nanoseconds for each unit more than in the line before"},
+};
+
+/// Factor for twice the count, from the last two points.
+double factor_of_doubling(const Growth& growth, double GrowthPoint::*value) {
+  const GrowthPoint& a = growth.points[growth.points.size() - 2];
+  const GrowthPoint& b = growth.points.back();
+  return std::exp2(std::log(b.*value / (a.*value)) / std::log(b.count / a.count));
+}
+
+/// The slopes at the large end.
+std::string growth_in_words(const Growth& growth) {
+  if (growth.points.size() < 2) return {};
+  const std::string& quantity = growth.quantity;
+  const double bytes = (growth.points.back().mebibytes - growth.points.front().mebibytes) * (1 << 20) /
+                       (growth.points.back().count - growth.points.front().count);
+  return formatted(
+      "From %.0f %s on, twice the %s take %.2f times the time and %.2f times the memory; over the whole "
+      "range, "
+      "each one adds %.1f bytes.\n",
+      growth.points[growth.points.size() - 2].count, quantity.c_str(), quantity.c_str(),
+      factor_of_doubling(growth, &GrowthPoint::ms), factor_of_doubling(growth, &GrowthPoint::mebibytes),
+      bytes);
+}
+
+}  // namespace
+
 std::string growth_table(const std::vector<Growth>& all) {
   std::string text;
   for (const Growth& growth : all) {
     text += formatted("\n%s: %s\n%12s %12s %12s %14s\n", growth.quantity.c_str(), growth.description.c_str(),
-                      growth.quantity.c_str(), "median ms", "peak MB", "ns per added");
+                      growth.quantity.c_str(), "median ms", "peak MiB", "ns per added");
     const GrowthPoint* before = nullptr;
     for (const GrowthPoint& point : growth.points) {
-      text += formatted("%12.0f %12.3f %12.1f", point.count, point.ms, point.megabytes);
+      text += formatted("%12.0f %12.3f %12.1f", point.count, point.ms, point.mebibytes);
       if (before != nullptr)
         text += formatted(" %14.1f", 1e6 * (point.ms - before->ms) / (point.count - before->count));
       text += "\n";
       before = &point;
     }
+    text += growth_in_words(growth);
   }
-  return text;
+  return text + column_lines(kGrowthColumns);
 }
 
 std::string growth_svg(const std::vector<Growth>& all) {
@@ -159,7 +194,7 @@ std::string growth_svg(const std::vector<Growth>& all) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double x0 = kLeft + kPitchX * static_cast<double>(i);
     svg += panel(all[i], &GrowthPoint::ms, "ms per frame, by " + all[i].quantity, x0, kTop);
-    svg += panel(all[i], &GrowthPoint::megabytes, "peak MB, by " + all[i].quantity, x0, kTop + kPitchY);
+    svg += panel(all[i], &GrowthPoint::mebibytes, "peak MiB, by " + all[i].quantity, x0, kTop + kPitchY);
   }
   return svg + "</svg>\n";
 }

@@ -12,7 +12,8 @@ namespace tessera::bench {
 struct GrowthPoint {
   double count = 0;  ///< triangles, pixels, lights or draws
   double ms = 0;
-  double megabytes = 0;  ///< peak up to the end of the first frame: meshes, planes and image included
+  double mebibytes =
+      0;  ///< growth of memory up to the end of the first frame: meshes, planes and image included
 };
 
 /// Frames that differ in one quantity only.

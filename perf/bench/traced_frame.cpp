@@ -41,12 +41,6 @@ double ns_per_pixel(const FrameTask& task) {
   return 1e9 * (task.end - task.begin) / (static_cast<double>(task.pixels.width) * task.pixels.height);
 }
 
-/// Maps 0 to 1 to black, red, yellow, white.
-void paint(std::uint8_t* rgba, double share) {
-  for (int c = 0; c < 3; ++c)
-    rgba[c] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(3 * share - c, 0.0, 1.0)));
-}
-
 using Clock = std::chrono::steady_clock;
 
 std::set<int> workers_of(std::span<const FrameTask> tasks) {
@@ -104,6 +98,11 @@ std::string chrome_trace(const std::vector<TracedFrame>& frames) {
   return nlohmann::ordered_json{{"traceEvents", std::move(events)}, {"displayTimeUnit", "ms"}}.dump() + "\n";
 }
 
+void paint_cost(std::uint8_t* rgba, double share) {
+  for (int c = 0; c < 3; ++c)
+    rgba[c] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(3 * share - c, 0.0, 1.0)));
+}
+
 Heatmap heatmap(const TracedFrame& frame) {
   int width = 0, height = 0;
   for (const FrameTask& task : frame.tasks) {
@@ -118,10 +117,10 @@ Heatmap heatmap(const TracedFrame& frame) {
   for (const FrameTask& task : frame.tasks)
     for (int y = task.pixels.y; y < task.pixels.y + task.pixels.height; ++y)
       for (int x = task.pixels.x; x < task.pixels.x + task.pixels.width; ++x)
-        paint(map.picture.rgba.data() +
-                  4 * (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
-                       static_cast<std::size_t>(x)),
-              ns_per_pixel(task) / map.max_ns_per_pixel);
+        paint_cost(map.picture.rgba.data() +
+                       4 * (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
+                            static_cast<std::size_t>(x)),
+                   ns_per_pixel(task) / map.max_ns_per_pixel);
   return map;
 }
 

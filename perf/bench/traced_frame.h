@@ -47,10 +47,13 @@ TracedFrame trace_frame(const WorkloadEntry& entry, const WorkloadSetup& setup);
 /// per worker. Source: Trace Event Format, complete events ("X"), times in microseconds.
 std::string chrome_trace(const std::vector<TracedFrame>& frames);
 
+/// Sets red, green and blue for a share of the maximum from 0 to 1: black, red, yellow, white.
+void paint_cost(std::uint8_t* rgba, double share);
+
 /// Cost per pixel of each tile, from black through red and yellow to white, the most expensive tile.
 struct Heatmap {
   Picture picture;
-  double max_ns_per_pixel = 0;  ///< shown as white
+  double max_ns_per_pixel = 0;  ///< nanoseconds of one thread; shown as white
 };
 /// The picture is empty if the frame has no tile tasks.
 Heatmap heatmap(const TracedFrame& frame);

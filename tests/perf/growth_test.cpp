@@ -40,12 +40,24 @@ TEST(BenchGrowth, TabulatesCostPerAddedUnit) {
   EXPECT_EQ(count, 100000);
 }
 
+// From 1000 to 100,000 draws time grows from 1.1 to 11 ms, by the square root, and memory in proportion.
+TEST(BenchGrowth, SaysSlopesInWords) {
+  std::vector<Growth> growth = linear_growth();
+  growth[0].points.back().mebibytes = 500;
+  const std::string table = growth_table(growth);
+  EXPECT_THAT(table, HasSubstr("From 1000 draws on, twice the draws take 1.41 times the time and 2.00 times "
+                               "the memory"));
+  EXPECT_THAT(table, HasSubstr("each one adds 5191.0 bytes.")) << "495 MiB / 99,990";
+  for (const char* column : {"\nmedian ms ", "\npeak MiB ", "\nns per added "})
+    EXPECT_THAT(table, HasSubstr(column));
+}
+
 TEST(BenchGrowth, PlotsTimeAndMemory) {
   const std::string svg = growth_svg(linear_growth());
   EXPECT_THAT(svg, testing::StartsWith("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 270 430'"));
   EXPECT_THAT(svg, testing::EndsWith("</svg>\n"));
   EXPECT_THAT(svg, HasSubstr("ms per frame, by draws"));
-  EXPECT_THAT(svg, HasSubstr("peak MB, by draws"));
+  EXPECT_THAT(svg, HasSubstr("peak MiB, by draws"));
   // The axis runs from 10 to 100 k: the second of the three points is in the middle of the panel.
   EXPECT_THAT(svg, HasSubstr("<circle cx='50.0' "));
   EXPECT_THAT(svg, HasSubstr("<circle cx='150.0' "));
