@@ -6,6 +6,8 @@
 
 #include "perf/bench/bench_meshes.h"
 #include "perf/bench/drawn_workload.h"
+#include "perf/bench/mesh_workloads.h"
+#include "perf/bench/passing_stages.h"
 #include "perf/rivals/literal_shaders.h"
 
 namespace tessera::bench {
@@ -220,6 +222,19 @@ WorkloadEntry fill_entry(const std::string& name, const std::string& description
 }
 
 }  // namespace
+
+WorkloadEntry fill_with_stage() {
+  WorkloadEntry entry = drawn_outside_mean(
+      "stage-fill-gouraud", "fill-gouraud with a fragment stage that passes colours through",
+      [](int w, int h, std::uint32_t) {
+        Drawing drawing =
+            gouraud_layers(w, h, [](int, DrawState& state) { state.fragment_stage = kPassingFragmentStage; });
+        drawing.gl_workload = nullptr;
+        return drawing;
+      });
+  entry.baseline = "fill-gouraud";
+  return entry;
+}
 
 std::vector<WorkloadEntry> fill_workloads() {
   const auto plain = [](int, DrawState&) {};

@@ -1,5 +1,5 @@
 // A workload for OpenGL, in its fastest form: one mesh in one call, constants as literals in the shaders, no
-// state changes within a frame.
+// state changes within a frame. Workloads that are about many draws have one call and two uniforms each.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,20 @@ struct ShaderSources {
   std::string vertex, fragment;
 };
 
+/// A draw of the whole mesh with its own constants: `uniform mat4 clip_from_object; uniform vec3 color;`.
+struct GlDraw {
+  Matrix clip_from_object{};
+  Color color{};
+};
+
 /// State is OpenGL's default except for the members below.
 struct GlWorkload {
   MeshData mesh{};
   ShaderSources shaders{};
-  bool tests_depth = false;  ///< depth function GL_LESS, with writes
+  std::vector<GlDraw> draws{};  ///< one call each; empty: one call without uniforms
+  int samples = 1;              ///< per pixel; more than 1: a multisample buffer, resolved into the picture
+  int width = 0, height = 0;    ///< pixels; 0: the size of the workload's set-up
+  bool tests_depth = false;     ///< depth function GL_LESS, with writes
   bool writes_color = true;
   /// Checked frames draw the last `revealed_indices` indices once more, with colour writes and depth function
   /// GL_EQUAL: the picture then shows whether their depth was stored. 0: none.

@@ -6,6 +6,7 @@
 #include "perf/bench/bench_meshes.h"
 #include "perf/bench/drawn_workload.h"
 #include "perf/bench/mesh_workloads.h"
+#include "perf/bench/passing_stages.h"
 #include "perf/rivals/literal_shaders.h"
 
 namespace tessera::bench {
@@ -25,7 +26,30 @@ struct LitSphere {
   Shading shading = Shading::phong;
   int lights = 1;
   bool has_spots = false;  ///< spot lights instead of point lights
+  bool has_stage = false;  ///< a fragment stage that passes colours through
+  bool is_textured = false;
 };
+
+/// Texture coordinates from 0 to 1 around the sphere and from pole to pole.
+void add_texcoords(MeshData& mesh, int columns, int rows) {
+  for (int y = 0; y <= rows; ++y)
+    for (int x = 0; x <= columns; ++x)
+      mesh.texcoords.insert(mesh.texcoords.end(), {static_cast<float>(x) / static_cast<float>(columns),
+                                                   static_cast<float>(y) / static_cast<float>(rows)});
+}
+
+constexpr int kTexels = 512;  // per side
+
+/// RGBA. Red is 1, so that it stays as the lighting equation has it; green and blue are smooth waves.
+std::vector<std::uint8_t> wave_texels() {
+  std::vector<std::uint8_t> texels;
+  const auto wave = [](int i) {
+    return static_cast<std::uint8_t>(std::lround(127.5 + 127.5 * std::sin(2 * std::numbers::pi * i / 32)));
+  };
+  for (int y = 0; y < kTexels; ++y)
+    for (int x = 0; x < kTexels; ++x) texels.insert(texels.end(), {255, wave(x + y), wave(2 * y), 255});
+  return texels;
+}
 
 /// Lights in a ring in front of the sphere, near enough for their directions to vary over it.
 std::vector<Light> ring_of_lights(int count, bool are_spots) {
@@ -112,6 +136,7 @@ rivals::LitDraw lit_draw(int width, int height, const LitSphere& scene) {
                        .specular = {1, 1, 1, 1},
                        .shininess = kShininess},
           .shading = scene.shading,
+          .is_textured = scene.is_textured,
           .normalizes = scene.shading == Shading::phong};
 }
 
@@ -120,7 +145,14 @@ Drawing lit_sphere(int width, int height, const LitSphere& scene) {
   drawing.format = {.width = width, .height = height, .stencil_bits = 0};
   drawing.meshes.push_back(sphere(scene.columns, scene.columns / 2, static_cast<float>(kRadius)));
   const rivals::LitDraw lit = lit_draw(width, height, scene);
-  drawing.record = [lit](const Drawing& d, Frame& frame) {
+  std::vector<std::uint8_t> texels;
+  if (scene.is_textured) {
+    add_texcoords(drawing.meshes.front(), scene.columns, scene.columns / 2);
+    texels = wave_texels();
+    drawing.textures.emplace_back(
+        TextureImage{.pixels = texels.data(), .width = kTexels, .height = kTexels, .bottom_row_first = true});
+  }
+  drawing.record = [lit, has_stage = scene.has_stage](const Drawing& d, Frame& frame) {
     frame.set_camera(lit.camera);
     frame.set_lights(lit.lights);
     frame.set_light_model(lit.model);
@@ -130,14 +162,21 @@ Drawing lit_sphere(int width, int height, const LitSphere& scene) {
     state.normalize = lit.normalizes;
     state.cull = Cull::back;
     state.material = lit.material;
+    if (has_stage) state.fragment_stage = kPassingFragmentStage;
+    if (!d.textures.empty()) state.texture = &d.textures.front();
     frame.draw(d.meshes.front().view(), state);
   };
-  drawing.gl_workload = [lit](const Drawing& d) {
+  drawing.gl_workload = [lit, texels](const Drawing& d) {
     return GlWorkload{.mesh = d.meshes.front(),
                       .shaders = rivals::lit_shaders(lit),
+                      .width = d.format.width,
+                      .height = d.format.height,
                       .tests_depth = true,
-                      .culls_back = true};
+                      .culls_back = true,
+                      .texture_size = texels.empty() ? 0 : kTexels,
+                      .texels = texels};
   };
+  if (scene.has_stage) drawing.gl_workload = nullptr;
   drawing.fault = [red = red_at_center(lit.lights)](const Picture& picture) {
     return sphere_fault(picture, red);
   };
@@ -169,6 +208,16 @@ WorkloadEntry sphere_in_frame(int width, int height) {
       });
 }
 
+WorkloadEntry phong_with_stage() {
+  WorkloadEntry entry =
+      drawn_outside_mean("stage-phong-20k-8", "phong-20k-8 with a fragment stage that passes colours through",
+                         [](int width, int height, std::uint32_t) {
+                           return lit_sphere(width, height, {.lights = 8, .has_stage = true});
+                         });
+  entry.baseline = "phong-20k-8";
+  return entry;
+}
+
 WorkloadEntry sphere_with_lights(int lights) { return lit_entry("20k", {.lights = lights}); }
 
 std::vector<WorkloadEntry> lit_workloads() {
@@ -179,6 +228,16 @@ std::vector<WorkloadEntry> lit_workloads() {
   for (const bool has_spots : {false, true})
     for (const int lights : {1, 4, 8})
       list.push_back(lit_entry("20k", {.lights = lights, .has_spots = has_spots}));
+  list.push_back(drawn_outside_mean("textured-20k",
+                                    "a sphere of 20k triangles, lit per vertex by a point light, times a "
+                                    "trilinear texture of 512x512 texels",
+                                    [](int width, int height, std::uint32_t) {
+                                      return lit_sphere(width, height,
+                                                        {.shading = Shading::gouraud, .is_textured = true});
+                                    }));
+  list.push_back(drawn_outside_mean(
+      "small-64x64", "a frame of 64x64 pixels: a sphere of 400 triangles, lit per pixel by a point light",
+      [](int, int, std::uint32_t) { return lit_sphere(64, 64, {.columns = 20}); }));
   for (const auto& [width, height] :
        {std::pair{320, 200}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}, {7680, 4320}})
     list.push_back(sphere_in_frame(width, height));

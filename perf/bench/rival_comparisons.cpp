@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "perf/bench/columns.h"
 #include "perf/bench/text.h"
 
 namespace tessera::bench {
@@ -58,14 +59,32 @@ std::optional<Comparison> compare_with_rival(const WorkloadEntry& entry, const W
   if (!gl) return std::nullopt;
   const int threads = setup.options.threads;
   const Candidate ours{.name = entry.name, .make = [&] { return entry.make(setup); }, .threads = threads};
-  const Candidate rival{
-      .name = entry.name,
-      .make = [&] { return rivals::mesa_workload(*gl, setup.width, setup.height, driver, threads); },
-      .threads = threads};
+  const Candidate rival{.name = entry.name,
+                        .make =
+                            [&] {
+                              return rivals::mesa_workload(*gl, gl->width > 0 ? gl->width : setup.width,
+                                                           gl->height > 0 ? gl->height : setup.height, driver,
+                                                           threads);
+                            },
+                        .threads = threads};
   Comparison result = compare_with_rival(ours, rival, gl->max_mismatch_share, options, counters);
   result.is_in_mean = entry.is_in_mean;
   return result;
 }
+
+namespace {
+
+constexpr Column kRivalColumns[] = {
+    {"ours ms, rival ms",
+     "median time of a frame of Tessera and of the rival, milliseconds, measured in turns"},
+    {"ratio", "rival ms divided by ours ms: above 1, Tessera is faster"},
+    {"interval", "of the ratio: opposite ends of the 95 % confidence intervals of both medians"},
+    {"mismatch %", "pixels of the two pictures that differ by more than two levels, per cent"},
+};
+
+}  // namespace
+
+std::string comparison_columns() { return column_lines(kRivalColumns); }
 
 std::string comparison_heading() {
   return formatted("%-22s %9s %9s %7s  %-16s %12s\n", "workload", "ours ms", "rival ms", "ratio", "interval",

@@ -42,6 +42,8 @@ std::optional<Comparison> compare_with_rival(const WorkloadEntry& entry, const W
                                              const HardwareCounters& counters);
 
 std::string comparison_heading();
+/// Meaning of the columns, one line each.
+std::string comparison_columns();
 std::string comparison_line(const Comparison& comparison);
 std::string comparison_summary(const RivalComparisons& rival_comparisons);
 nlohmann::ordered_json comparisons_json(const RivalComparisons& rival_comparisons);

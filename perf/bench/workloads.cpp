@@ -15,8 +15,8 @@ const std::vector<WorkloadEntry>& workloads() {
     std::vector<WorkloadEntry> all;
     for (auto* const list :
          {fill_workloads, grid_workloads, lit_workloads, point_and_line_workloads, model_workloads,
-          scene_workloads, operation_workloads, elision_workloads, frame_buffer_workloads, dither_workloads,
-          plane_store_workloads, palette_workloads}) {
+          scene_workloads, object_workloads, stage_workloads, operation_workloads, elision_workloads,
+          frame_buffer_workloads, dither_workloads, plane_store_workloads, palette_workloads}) {
       std::vector<WorkloadEntry> entries = list();
       all.insert(all.end(), entries.begin(), entries.end());
     }

@@ -118,6 +118,16 @@ bench::ShaderSources window_shaders(Varying varying, const Color& color) {
   }
 }
 
+bench::ShaderSources object_shaders(double ambient) {
+  const std::string head = kHead;
+  return {head +
+              "layout(location = 0) in vec3 position;\nlayout(location = 1) in vec3 normal;\nuniform mat4 "
+              "clip_from_object;\nuniform vec3 color;\nout vec3 c_;\nvoid main() {\n  gl_Position = "
+              "clip_from_object * vec4(position, 1.0);\n  c_ = color * (" +
+              number(ambient) + " + max(normal.z, 0.0));\n}\n",
+          head + "in vec3 c_;\nout vec4 result;\nvoid main() { result = vec4(c_, 1.0); }\n"};
+}
+
 bench::ShaderSources lit_shaders(const LitDraw& draw) {
   const Matrix eye_from_object = draw.camera.view * draw.transform;
   const Matrix clip_from_object = draw.camera.projection * eye_from_object;
@@ -134,6 +144,12 @@ bench::ShaderSources lit_shaders(const LitDraw& draw) {
                 "  n_ = n;\n  p_ = p;\n}\n",
             head + "in vec3 n_;\nin vec3 p_;\nout vec4 color;\n" + lighting +
                 "void main() { color = vec4(light(normalize(n_), p_), 1.0); }\n"};
+  if (draw.is_textured)
+    return {head + inputs + "layout(location = 3) in vec2 t;\nout vec3 c_;\nout vec2 t_;\n" + lighting +
+                "void main() {\n" + transform + "  c_ = light(n, p);\n  t_ = t;\n}\n",
+            head +
+                "in vec3 c_;\nin vec2 t_;\nuniform sampler2D image;\nout vec4 color;\nvoid main() { color = "
+                "vec4(c_, 1.0) * texture(image, t_); }\n"};
   const std::string qualifier = draw.shading == Shading::flat ? "flat " : "";
   return {head + inputs + qualifier + "out vec3 c_;\n" + lighting + "void main() {\n" + transform +
               "  c_ = light(n, p);\n}\n",

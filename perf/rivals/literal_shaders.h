@@ -27,8 +27,12 @@ struct LitDraw {
   LightModel model{};  ///< one-sided
   Material material{};
   Shading shading = Shading::gouraud;
-  bool normalizes = true;  ///< normalizes vertex normals in eye space (DrawState::normalize)
+  bool is_textured = false;  ///< the texture's colour times the lit one; per-vertex lighting only
+  bool normalizes = true;    ///< normalizes vertex normals in eye space (DrawState::normalize)
 };
+/// Draws of GlWorkload::draws, lit by one white light at the viewer: colour * (ambient + cosine).
+/// Matrices scale uniformly and do not rotate, so that normals stay as they are.
+bench::ShaderSources object_shaders(double ambient);
 /// @throws std::runtime_error for two-sided lighting and for highlights other than Blinn's
 bench::ShaderSources lit_shaders(const LitDraw& draw);
 

@@ -1,9 +1,12 @@
 #include "perf/rivals/mesa_workload.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "perf/rivals/mesa_functions.h"
@@ -60,7 +63,7 @@ class MesaContext {
   OSMesaContext context_ = nullptr;
 };
 
-void link_and_use_program(const bench::ShaderSources& sources) {
+GLuint link_and_use_program(const bench::ShaderSources& sources) {
   const GLuint program = mesa().create_program();
   const auto attach = [&](GLenum kind, const std::string& source) {
     const GLuint shader = mesa().create_shader(kind);
@@ -80,7 +83,39 @@ void link_and_use_program(const bench::ShaderSources& sources) {
   attach(GL_FRAGMENT_SHADER, sources.fragment);
   mesa().link_program(program);
   mesa().use_program(program);
+  return program;
 }
+
+/// A buffer of several samples per pixel.
+class MultisampleBuffer {
+ public:
+  MultisampleBuffer(int width, int height, int samples) : width_(width), height_(height) {
+    mesa().gen_framebuffers(1, &framebuffer_);
+    mesa().bind_framebuffer(GL_FRAMEBUFFER, framebuffer_);
+    for (const auto& [attachment, format] :
+         {std::pair(GL_COLOR_ATTACHMENT0, GL_RGBA8), {GL_DEPTH_STENCIL_ATTACHMENT, GL_DEPTH24_STENCIL8}}) {
+      GLuint buffer = 0;
+      mesa().gen_renderbuffers(1, &buffer);
+      mesa().bind_renderbuffer(GL_RENDERBUFFER, buffer);
+      mesa().renderbuffer_storage_multisample(GL_RENDERBUFFER, samples, static_cast<GLenum>(format), width,
+                                              height);
+      mesa().framebuffer_renderbuffer(GL_FRAMEBUFFER, static_cast<GLenum>(attachment), GL_RENDERBUFFER,
+                                      buffer);
+    }
+    if (mesa().check_framebuffer_status(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+      throw std::runtime_error("the rival has no buffer of " + std::to_string(samples) + " samples");
+  }
+  void bind() const { mesa().bind_framebuffer(GL_FRAMEBUFFER, framebuffer_); }
+  /// Writes the means of the samples to the picture.
+  void resolve() const {
+    mesa().bind_framebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    mesa().blit_framebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  }
+
+ private:
+  int width_, height_;
+  GLuint framebuffer_ = 0;
+};
 
 template <class Number>
 void upload_buffer(GLenum target, const std::vector<Number>& values) {
@@ -131,7 +166,9 @@ class MesaWorkload : public bench::Workload {
  public:
   MesaWorkload(const GlWorkload& workload, int width, int height, MesaDriver driver, int threads)
       : context_(width, height, driver, threads), mode_(mode_of(workload.mesh.primitive)) {
-    link_and_use_program(workload.shaders);
+    const GLuint program = link_and_use_program(workload.shaders);
+    set_draws(program, workload.draws);
+    if (workload.samples > 1) multisample_.emplace(width, height, workload.samples);
     set_vertex_attribute(0, workload.mesh.position_components, workload.mesh.positions);
     set_vertex_attribute(1, 3, workload.mesh.normals);
     set_vertex_attribute(2, 4, workload.mesh.colors);
@@ -165,9 +202,15 @@ class MesaWorkload : public bench::Workload {
   }
 
   FrameStats draw() override {
+    if (multisample_) multisample_->bind();
     mesa().clear(clear_mask_);
-    if (index_count_ > 0) mesa().draw_elements(mode_, index_count_, GL_UNSIGNED_INT, nullptr);
-    else mesa().draw_arrays(mode_, 0, vertex_count_);
+    if (draws_.empty()) draw_mesh();
+    for (const Uniforms& uniforms : draws_) {
+      mesa().uniform_matrix_4fv(matrix_location_, 1, GL_TRUE, uniforms.matrix.data());
+      mesa().uniform_3fv(color_location_, 1, uniforms.color.data());
+      draw_mesh();
+    }
+    if (multisample_) multisample_->resolve();
     mesa().finish();
     return {};
   }
@@ -180,6 +223,25 @@ class MesaWorkload : public bench::Workload {
   bench::FrameWork work(const FrameStats&) const override { return {}; }
 
  private:
+  struct Uniforms {
+    std::array<float, 16> matrix;  // rows
+    std::array<float, 3> color;
+  };
+  void set_draws(GLuint program, const std::vector<bench::GlDraw>& draws) {
+    if (draws.empty()) return;
+    matrix_location_ = mesa().get_uniform_location(program, "clip_from_object");
+    color_location_ = mesa().get_uniform_location(program, "color");
+    for (const bench::GlDraw& draw : draws) {
+      Uniforms& uniforms = draws_.emplace_back();
+      std::transform(draw.clip_from_object.m.begin(), draw.clip_from_object.m.end(), uniforms.matrix.begin(),
+                     [](double element) { return static_cast<float>(element); });
+      uniforms.color = {draw.color.r, draw.color.g, draw.color.b};
+    }
+  }
+  void draw_mesh() const {
+    if (index_count_ > 0) mesa().draw_elements(mode_, index_count_, GL_UNSIGNED_INT, nullptr);
+    else mesa().draw_arrays(mode_, 0, vertex_count_);
+  }
   void reveal() {
     mesa().color_mask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     mesa().depth_func(GL_EQUAL);
@@ -196,6 +258,10 @@ class MesaWorkload : public bench::Workload {
 
   MesaContext context_;
   GLenum mode_;
+  std::optional<MultisampleBuffer> multisample_{};
+  std::vector<Uniforms> draws_{};
+  GLint matrix_location_ = -1;
+  GLint color_location_ = -1;
   GLsizei index_count_ = 0;
   GLsizei vertex_count_ = 0;
   GLsizei revealed_indices_ = 0;
