@@ -4,10 +4,51 @@
 
 #include "engine/program/scene/json_value.h"
 #include "engine/program/scene/text_file.h"
+#include "perf/bench/columns.h"
 #include "perf/bench/text.h"
 
 namespace tessera::bench {
 using namespace program;
+namespace {
+
+RowTimes times_of(const json::Value& row) {
+  const auto ms = [&row](const char* key) { return row.member(key).number(1e-9, 1e12); };
+  const auto ms_or = [&](const char* key, double missing) {
+    return row.json().contains(key) ? ms(key) : missing;
+  };
+  RowTimes times{.median = ms("median_ms")};
+  if (row.json().contains("frames"))
+    times.frames = static_cast<std::size_t>(row.member("frames").integer(0, 1000000));
+  const bool is_old = !row.json().contains("percentile_5_ms");
+  times.low = is_old ? ms_or("min_ms", times.median) : ms("percentile_5_ms");
+  times.high = ms_or(is_old ? "percentile_95_ms" : "high_quartile_ms", times.median);
+  times.reference = ms_or("reference_ms", 0);
+  return times;
+}
+
+RowTimes times_of(const Row& row) {
+  return {.frames = row.frames,
+          .median = row.ms.median,
+          .low = row.ms.percentile_5,
+          .high = row.ms.high_quartile,
+          .reference = row.reference_ms};
+}
+
+std::string comparison_table_line(const Row& row, const RowTimes& earlier, bool has_regressed) {
+  const Ratio& ratio = *row.earlier_over_now;
+  std::string text = formatted("%-22s %12.3f %12.3f %12.3f  %6.3f .. %.3f", row.name.c_str(), earlier.median,
+                               row.ms.median, ratio.value, ratio.low, ratio.high);
+  if (row.confirmations > 0) text += formatted(" measured %d times", 1 + row.confirmations);
+  return text + (has_regressed ? "  slower\n" : "\n");
+}
+
+constexpr Column kComparisonColumns[] = {
+    {"earlier, ms; now, ms", "median time of a frame, as `median ms` above"},
+    {"earlier/now", "ratio of the two: above 1, the row is faster now"},
+    {"interval", "what the frame times of both runs and the drift of the machine between them permit"},
+};
+
+}  // namespace
 
 BaselineRun::BaselineRun(const std::string& file) : file_(file) {
   const json::Json report = json::parse(read_text_file(file), file);
@@ -26,21 +67,26 @@ BaselineRun::BaselineRun(const std::string& file) : file_(file) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const json::Value row = rows.element(i);
     if (!row.json().is_object() || !row.json().contains("name")) row.fail("a workload with its name");
-    if (row.json().contains("median_ms"))
-      medians_[row.member("name").text()] = row.member("median_ms").number(1e-9, 1e12);
+    if (row.json().contains("median_ms")) times_[row.member("name").text()] = times_of(row);
   }
   report_ = report;
 }
 
 bool BaselineRun::has_any_of(std::span<const WorkloadEntry* const> entries) const {
   return std::any_of(entries.begin(), entries.end(),
-                     [this](const WorkloadEntry* entry) { return medians_.contains(entry->name); });
+                     [this](const WorkloadEntry* entry) { return times_.contains(entry->name); });
 }
 
 void BaselineRun::require_size(int width, int height) const {
   if (width != width_ || height != height_)
     throw Error(formatted("%s: frames are %dx%d, expected %dx%d, the size of this run", file_.c_str(), width_,
                           height_, width, height));
+}
+
+std::optional<Ratio> BaselineRun::ratio_to(const Row& now) const {
+  const auto found = times_.find(now.name);
+  if (found == times_.end() || now.frames == 0) return std::nullopt;
+  return earlier_over_now(found->second, times_of(now));
 }
 
 BaselineComparison BaselineRun::compare(const Report& now, double allowed) const {
@@ -55,23 +101,31 @@ BaselineComparison BaselineRun::compare(const Report& now, double allowed) const
       comparison.table += at.back() + " differs: " + report_[at].dump() + " in " + file_ + ", now " +
                           report[at].dump() + "\n";
   }
-  comparison.table +=
-      formatted("%-22s %12s %12s %12s\n", "workload", "earlier, ms", "now, ms", "earlier/now");
-  std::map<std::string, double> only_earlier = medians_;
+  const auto has_no_reference = [](const auto& entry) { return entry.second.reference <= 0; };
+  if (std::any_of(times_.begin(), times_.end(), has_no_reference))
+    comparison.table += formatted(
+        "%s has no reference times (an older version wrote it), so intervals allow for a machine that is "
+        "%.0f %% slower or faster now\n",
+        file_.c_str(), 100 * (kUnknownDrift - 1));
+  comparison.table += formatted("%-22s %12s %12s %12s  %s\n", "workload", "earlier, ms", "now, ms",
+                                "earlier/now", "interval");
+  std::map<std::string, RowTimes> only_earlier = times_;
   for (const Row& row : now.rows) {
-    const auto found = medians_.find(row.name);
+    const auto found = times_.find(row.name);
     only_earlier.erase(row.name);
-    if (found == medians_.end() || row.frames == 0) {
+    if (found == times_.end() || !row.earlier_over_now) {
       comparison.table += row.name + ": " + (row.frames == 0 ? "not measured now" : "not in " + file_) + "\n";
       continue;
     }
-    const double earlier = found->second;
-    const bool has_regressed = row.ms.median > earlier * (1 + allowed);
-    comparison.table += formatted("%-22s %12.3f %12.3f %12.3f%s\n", row.name.c_str(), earlier, row.ms.median,
-                                  earlier / row.ms.median, has_regressed ? "  slower" : "");
+    const bool has_regressed = is_slower(*row.earlier_over_now, allowed);
+    comparison.table += comparison_table_line(row, found->second, has_regressed);
     comparison.has_regressed |= has_regressed;
   }
-  for (const auto& [name, median] : only_earlier) comparison.table += name + ": only in " + file_ + "\n";
+  for (const auto& [name, times] : only_earlier) comparison.table += name + ": only in " + file_ + "\n";
+  comparison.table += column_lines(kComparisonColumns);
+  comparison.table +=
+      formatted("%-22s the whole interval is below %.3f: a frame takes %g %% longer or more (--allowed)\n",
+                "slower", 1 / (1 + allowed), 100 * allowed);
   return comparison;
 }
 

@@ -112,8 +112,8 @@ void add_measurement_options(CLI::App& program, BenchOptions& options) {
               1000000, options.measure.repeats);
   add_text(
       program, "--seconds", "S",
-      "seconds per workload (without --repeats) and at most per roofline; --scaling takes twice that per "
-      "predicted core count; default: 1",
+      "seconds per workload (without --repeats), and a fifth of that for reference work in turns with it; at "
+      "most per roofline; --scaling takes twice that per predicted core count; default: 1",
       [&options](const std::string& text) {
         return parse_number(text, 0.001, 3600, options.measure.seconds);
       },
@@ -137,19 +137,27 @@ void add_mode_options(CLI::App& program, BenchOptions& options) {
   program.add_flag("--scaling", options.scaling,
                    "speed-up on more cores: measured up to --threads, "
                    "predicted for 2 to 128 from the cost of tasks");
+  program.add_flag("--machine", options.machine,
+                   "also measure the machine: its noise, memory bandwidth, latency between cores, and the "
+                   "roofline of each workload that has one; takes about 10 times --seconds, and twice "
+                   "--seconds per fill");
   add_integer(program, "--memory-cores", "cores that saturate memory bandwidth, for --scaling; default: 8",
               1024, options.memory_cores);
-  add_path(program, "--growth", "FILE",
-           "SVG plot of time and memory over triangles, pixels, lights and draws; nothing else is measured; "
-           "default: none",
-           options.growth_file);
+  add_path(
+      program, "--growth", "FILE",
+      "SVG plot of time and memory over triangles, pixels, lights and draws, and a table with the slopes in "
+      "words; nothing else is measured; "
+      "default: none",
+      options.growth_file);
   add_path(program, "--trace", "FILE",
            "trace of the tasks of one frame per workload, for chrome://tracing and ui.perfetto.dev; nothing "
            "else is measured; default: none",
            options.trace_file);
-  add_path(program, "--heatmap", "FILE",
-           "picture of the cost of each tile of one workload; nothing else is measured; default: none",
-           options.heatmap_file);
+  add_path(
+      program, "--heatmap", "FILE",
+      "picture of one workload: the frame, next to it the cost of each tile, and a key with units; nothing "
+      "else is measured; default: none",
+      options.heatmap_file);
 }
 
 void add_output_options(CLI::App& program, BenchOptions& options) {
@@ -161,12 +169,13 @@ void add_output_options(CLI::App& program, BenchOptions& options) {
   add_path(program, "--pictures", "DIR",
            "folder for the picture of each workload, WORKLOAD.png; default: none is written",
            options.pictures_folder);
-  add_path(program, "--compare", "FILE",
-           "earlier --json file: shows ratios to it; exits with 3 if a row "
-           "is slower by more than --allowed; default: none",
-           options.compare_file);
+  add_path(
+      program, "--compare", "FILE",
+      "earlier --json file: shows ratios to it with their intervals; exits with 3 if the whole interval "
+      "of a row is beyond --allowed; rows that look slower are measured up to 3 more times; default: none",
+      options.compare_file);
   add_text(
-      program, "--allowed", "SHARE", "share by which a row may be slower; default: 0.1 (10 %)",
+      program, "--allowed", "SHARE", "share by which a frame may take longer; default: 0.1 (10 %)",
       [&options](const std::string& text) { return parse_number(text, 0, 100, options.allowed); },
       ", 0 to 100");
 }
@@ -200,6 +209,7 @@ void check_use(const CLI::App& program, const BenchOptions& options) {
       {"--csv", !grows && !traces, kOwnFile},
       {"--pictures", !grows && !traces, kOwnFile},
       {"--compare", !grows && !traces, kOwnFile},
+      {"--machine", !grows && !traces, kOwnFile},
       {"--growth", !traces, "excludes --trace and --heatmap"},
       {"workloads", !grows, "have no effect with --growth, which has its own"},
       {"--repeats", !traces, kOneFrame},

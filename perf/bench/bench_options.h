@@ -22,6 +22,7 @@ struct BenchOptions {
   bool rivals = false;  ///< compare with Mesa
   rivals::MesaDriver driver = rivals::MesaDriver::llvmpipe;
   bool scaling = false;  ///< measure and predict speed-ups instead of rates
+  bool machine = false;  ///< also measure noise, bandwidth, rooflines and latency between cores
   int memory_cores = 8;  ///< cores that saturate memory bandwidth in the model of many cores
   std::string growth_file{};
   std::string trace_file{};

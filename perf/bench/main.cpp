@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -16,12 +17,13 @@
 #include "engine/program/imageio/atomic_file.h"
 #include "engine/program/imageio/picture.h"
 #include "engine/program/threads/thread_limit.h"
-#include "perf/bench/bandwidth.h"
 #include "perf/bench/baseline_run.h"
 #include "perf/bench/bench_options.h"
 #include "perf/bench/cores.h"
 #include "perf/bench/frame_costs.h"
 #include "perf/bench/growth.h"
+#include "perf/bench/heatmap_sheet.h"
+#include "perf/bench/machine_bandwidth.h"
 #include "perf/bench/output_files.h"
 #include "perf/bench/report.h"
 #include "perf/bench/text.h"
@@ -41,6 +43,7 @@ constexpr const char* kExamples = R"(Examples:
   tessera bench                                   all workloads
   tessera bench fill grid-2M                      some of them
   tessera bench operation                         cost of fragment operations
+  tessera bench --machine fill                    rooflines and noise of the machine, too
   tessera bench --json before.json                before a change
   tessera bench --compare before.json             after it)";
 
@@ -76,42 +79,17 @@ class Bench {
     report_.instruction_set = name(Renderer(options.renderer).options().instruction_set);
   }
 
-  void run(const std::vector<const WorkloadEntry*>& entries) {
-    report_.core_to_core_ns[0] = core_to_core_ns();
+  /// @param earlier  null: no comparison
+  void run(const std::vector<const WorkloadEntry*>& entries, const BaselineRun* earlier) {
+    report_.has_machine = options_.machine;
+    if (options_.machine) report_.core_to_core_ns[0] = core_to_core_ns();
     show(report_.machine + "frames             " + setting_text(report_) + "\n\n");
     if (options_.scaling) run_on_more_threads(entries);
     else if (options_.rivals) run_with_rivals(entries);
-    else run_alone(entries);
+    else run_alone(entries, earlier);
+    if (!options_.machine) return;
     if (!entries.empty()) measure_noise(*entries.front());
-  }
-  void measure_rates() {
-    constexpr std::uint64_t kBandwidthTestBytes = std::uint64_t{256} << 20;
-    constexpr std::uint64_t kTileBytes = std::uint64_t{64} << 10;
-    const std::uint64_t frame_bytes =
-        4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
-    const auto rate_of = [&](Roofline roofline, int threads, std::uint64_t bytes) -> std::optional<double> {
-      try {
-        return measure_bandwidth(roofline, threads, bytes, options_.measure.seconds);
-      } catch (const std::bad_alloc&) {
-        return {};  // keep the other results
-      }
-    };
-    const auto rate = [&](Roofline roofline, std::uint64_t bytes) {
-      return rate_of(roofline, report_.threads, bytes);
-    };
-    report_.bandwidth = {.l1_stores = rate(Roofline::l1_stores, 0),
-                         .frame_stores = rate(Roofline::memory_stores, frame_bytes),
-                         .frame_copies = rate(Roofline::memory_copies, 2 * frame_bytes),
-                         .tile_stores = rate(Roofline::memory_stores,
-                                             kTileBytes * static_cast<std::uint64_t>(report_.threads)),
-                         .memory_stores = rate(Roofline::memory_stores, kBandwidthTestBytes),
-                         .memory_loads = rate(Roofline::memory_loads, kBandwidthTestBytes),
-                         .memory_loads_single_core = rate_of(Roofline::memory_loads, 1, kBandwidthTestBytes)};
-    try {
-      report_.core_to_core_ns[1] = core_to_core_ns();
-    } catch (const std::exception&) {
-      // No thread or no memory for it. It stays 0 and is not shown.
-    }
+    measure_machine();
   }
   void show(const std::string& text) const {
     if (!is_silent()) cli::write_to_stdout(text);
@@ -122,7 +100,7 @@ class Bench {
   bool has_fault() const { return has_fault_; }
 
  private:
-  void run_alone(const std::vector<const WorkloadEntry*>& entries) {
+  void run_alone(const std::vector<const WorkloadEntry*>& entries, const BaselineRun* earlier) {
     show(table_heading());
     for (const WorkloadEntry* entry : entries) {
       Candidate candidate = candidate_of(*entry);
@@ -131,12 +109,36 @@ class Bench {
           write_picture(picture, options_.pictures_folder + "/" + entry->name + ".png");
           return std::string();
         };
-      Row row = measure(std::vector{candidate}, with_rooflines(options_.measure), counters_).front();
+      MeasureOptions measured = alone();
+      measured.measures_rooflines = options_.machine;
+      Row row = measure(std::vector{candidate}, measured, counters_).front();
+      if (earlier != nullptr) row.earlier_over_now = earlier->ratio_to(row);
       compare_with_baseline(*entry, row);
       show(table_line(row));
       has_fault_ |= !row.fault.empty();
       report_.rows.push_back(std::move(row));
     }
+    show(table_columns());
+    if (earlier != nullptr) confirm_regressions(entries, *earlier);
+  }
+  /// Measures again what looks slower than earlier: a burst of other work seldom returns. Each row at most
+  /// kMaxConfirmations times, after the others.
+  void confirm_regressions(const std::vector<const WorkloadEntry*>& entries, const BaselineRun& earlier) {
+    constexpr int kMaxConfirmations = 3;
+    for (int round = 0; round < kMaxConfirmations; ++round)
+      for (const WorkloadEntry* entry : entries) {
+        const auto row = std::find_if(report_.rows.begin(), report_.rows.end(),
+                                      [entry](const Row& each) { return each.name == entry->name; });
+        if (row == report_.rows.end() || !row->earlier_over_now) continue;
+        if (!is_slower(*row->earlier_over_now, options_.allowed)) continue;
+        show(formatted("%s looks slower than in %s: measured again\n", entry->name.c_str(),
+                       options_.compare_file.c_str()));
+        const Row again = measure(std::vector{candidate_of(*entry)}, alone(), counters_).front();
+        const std::optional<Ratio> ratio = earlier.ratio_to(again);
+        if (!ratio) continue;
+        ++row->confirmations;
+        row->earlier_over_now = joined(*row->earlier_over_now, *ratio);
+      }
   }
   void run_with_rivals(const std::vector<const WorkloadEntry*>& entries) {
     RivalComparisons& rival_comparisons = report_.rival_comparisons.emplace();
@@ -157,6 +159,7 @@ class Bench {
       has_fault_ |= !comparison->fault().empty();
       rival_comparisons.comparisons.push_back(std::move(*comparison));
     }
+    show(comparison_columns());
     if (!without_rival.empty()) show("not drawn by rivals:" + without_rival + "\n");
   }
   void run_on_more_threads(const std::vector<const WorkloadEntry*>& entries) {
@@ -173,6 +176,17 @@ class Bench {
       show(scaling_line(report_.scaling.back()));
       const Scaling& scaling = report_.scaling.back();
       has_fault_ |= !scaling.fault.empty() || !scaling.not_computed.empty();
+    }
+    show(scaling_columns());
+  }
+  void measure_machine() {
+    const std::uint64_t frame_bytes =
+        4 * static_cast<std::uint64_t>(report_.width) * static_cast<std::uint64_t>(report_.height);
+    report_.bandwidth = measure_machine_bandwidth(report_.threads, frame_bytes, options_.measure.seconds);
+    try {
+      report_.core_to_core_ns[1] = core_to_core_ns();
+    } catch (const std::exception&) {
+      // No thread or no memory for it. It stays 0 and is not shown.
     }
   }
   void measure_noise(const WorkloadEntry& entry) {
@@ -191,8 +205,10 @@ class Bench {
       if (row.fault.empty()) row.fault = measured.fault;
     if (row.fault.empty()) row.to_baseline = {baseline->name, ratio_of(rows[0].ms, rows[1].ms)};
   }
-  static MeasureOptions with_rooflines(MeasureOptions options) {
-    options.measures_rooflines = true;
+  /// Options for a row that later runs may be compared with.
+  MeasureOptions alone() const {
+    MeasureOptions options = options_.measure;
+    options.measures_reference = true;
     return options;
   }
   Candidate candidate_of(const WorkloadEntry& entry) const {
@@ -226,9 +242,12 @@ void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>&
   }
   if (!options.trace_file.empty()) write(options.trace_file, chrome_trace(frames));
   if (!tile_costs) return;
-  write_picture(tile_costs->picture, options.heatmap_file);
-  (options.trace_file == "-" ? std::cerr : std::cout) << formatted(
-      "%s: white is %.2f ns per pixel\n", options.heatmap_file.c_str(), tile_costs->max_ns_per_pixel);
+  const std::unique_ptr<Workload> workload = entries.front()->make(setup);
+  workload->draw();
+  write_picture(heatmap_sheet(*tile_costs, workload->picture(), entries.front()->name), options.heatmap_file);
+  (options.trace_file == "-" ? std::cerr : std::cout)
+      << formatted("%s: white is %.2f nanoseconds of one thread per pixel\n", options.heatmap_file.c_str(),
+                   tile_costs->max_ns_per_pixel);
 }
 
 void show_growth(const BenchOptions& options) {
@@ -301,8 +320,7 @@ int run(BenchOptions& options) {
   Bench bench(options);  // opens the hardware counters: before any thread is started
   const ThreadLimit limit(options.renderer.threads);
   if (!options.pictures_folder.empty()) make_folder(options.pictures_folder);
-  bench.run(selection.entries);
-  bench.measure_rates();
+  bench.run(selection.entries, earlier ? &*earlier : nullptr);
   bench.show(table_summary(bench.report()));
   if (!options.json_file.empty()) write(options.json_file, report_json(bench.report()).dump(2) + "\n");
   if (!options.csv_file.empty()) write(options.csv_file, report_csv(bench.report()));

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "perf/bench/bandwidth.h"
+#include "perf/bench/reference_work.h"
 #include "perf/bench/resident_memory.h"
 
 namespace tessera::bench {
@@ -22,10 +23,11 @@ double ms_since(Clock::time_point start) {
 constexpr int kMinTurns = 15;
 constexpr int kMaxTurns = 10000;
 
-/// Runs a workload or one of its rooflines.
+/// Runs a workload, one of its rooflines, or the reference work.
 struct Runner {
   std::unique_ptr<Workload> workload{};
   std::optional<BandwidthKernel> roofline{};
+  std::optional<ReferenceWork> reference{};
   double Row::*rate = nullptr;  // member that receives the roofline's result
   std::size_t row = 0;          // index of the row that receives the results
   FrameStats stats{};           // statistics of the workload's last frame
@@ -34,6 +36,7 @@ struct Runner {
 
   void draw() {
     if (roofline) roofline->run();
+    else if (reference) reference->run();
     else stats = workload->draw();
   }
 };
@@ -114,10 +117,27 @@ void add_rooflines(std::vector<Runner>& runners, const std::vector<Row>& rows, s
   }
 }
 
+/// Adds the reference work and its turns: they take about a fifth of options.seconds, in few runs if there
+/// are few frames, because a frame is drawn untimed after each.
+void add_reference(std::vector<Runner>& runners, std::vector<std::size_t>& turns, int threads, int frames,
+                   const MeasureOptions& options) {
+  constexpr double kShareOfSeconds = 0.2;
+  const int runs = std::min(frames, std::clamp(frames / 10, 5, 20));
+  try {
+    ReferenceWork reference(threads, kShareOfSeconds * options.seconds / runs);
+    reference.run();  // starts the threads
+    turns.insert(turns.end(), static_cast<std::size_t>(runs), runners.size());
+    runners.push_back({.reference = std::move(reference)});
+  } catch (const std::bad_alloc&) {
+    // Keep the rows; their reference time stays 0.
+  }
+}
+
 /// Times all runners in random turns: the same number of frames of each workload. Rooflines take no more
 /// turns than fit in options.seconds (at least kMinTurns).
+/// @param threads      of the reference work
 /// @param current_row  set to the row whose turn it is, also on an exception
-void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options,
+void draw_in_turns(std::vector<Runner>& runners, int threads, const MeasureOptions& options,
                    const HardwareCounters& counters, std::size_t& current_row) {
   // All workloads get the same number of frames. Otherwise most frames of the faster workload would follow
   // another of its frames, and most frames of the slower one a frame of the other.
@@ -133,6 +153,7 @@ void draw_in_turns(std::vector<Runner>& runners, const MeasureOptions& options,
   }
   for (std::size_t k = 0; k < runners.size(); ++k)
     if (!runners[k].roofline) turns.insert(turns.end(), static_cast<std::size_t>(frames), k);
+  if (options.measures_reference) add_reference(runners, turns, threads, frames, options);
   std::mt19937 random(options.seed);
   std::shuffle(turns.begin(), turns.end(), random);
   std::optional<std::size_t> last;
@@ -175,7 +196,7 @@ std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOpt
   std::size_t current_row = 0;
   const std::string error = error_of([&] {
     if (options.measures_rooflines) add_rooflines(runners, rows, current_row);
-    draw_in_turns(runners, options, counters, current_row);
+    draw_in_turns(runners, rows.front().threads, options, counters, current_row);
   });
   if (!error.empty()) {
     rows[current_row].fault = error;
@@ -185,6 +206,10 @@ std::vector<Row> measure(std::span<const Candidate> candidates, const MeasureOpt
   for (Runner& runner : runners) {
     Row& row = rows[runner.row];
     const Statistics ms = statistics_of(runner.times);
+    if (runner.reference) {
+      for (Row& each : rows) each.reference_ms = ms.median / static_cast<double>(runner.reference->units());
+      continue;
+    }
     if (runner.roofline) {
       row.*runner.rate = runner.roofline->bytes() / ms.median * 1e-6;
       continue;

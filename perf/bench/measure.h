@@ -21,6 +21,8 @@ struct MeasureOptions {
   double warm_up_seconds = 0.2;     ///< per row and roofline, at most `seconds`
   std::uint32_t seed = 1;           ///< for the order of turns
   bool measures_rooflines = false;  ///< also time each row's roofline, in turns with its frames
+  /// Also time ReferenceWork in turns with the frames, on the threads of the first candidate.
+  bool measures_reference = false;
 };
 
 /// Ratio of a row's median to that of its baseline, measured in turns.
@@ -43,7 +45,10 @@ struct Row {
   double roofline = 0;
   /// L1 store rate in 10^9 bytes/s, for Roofline::tile_stores only.
   double l1_stores = 0;
+  double reference_ms = 0;  ///< median time of a unit of ReferenceWork; 0: not measured
   std::optional<BaselineRatio> to_baseline{};
+  std::optional<Ratio> earlier_over_now{};  ///< see run_comparison.h; std::nullopt: no --compare
+  int confirmations = 0;  ///< times that the row was measured again because it looked slower than earlier
   /// Fault of the picture, or the error that stopped the row; empty: none.
   std::string fault;
   bool is_aborted = false;  ///< whether `fault` is an error that stopped the row

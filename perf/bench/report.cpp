@@ -4,6 +4,7 @@
 #include <sstream>
 #include <utility>
 
+#include "perf/bench/columns.h"
 #include "perf/bench/text.h"
 
 namespace tessera::bench {
@@ -59,8 +60,12 @@ std::vector<Metric> metrics_of(const Row& row) {
                               {"megafragments_per_second", millions(row.work.fragments, row)},
                               {"gigabytes_per_second", millions(row.work.bytes, row) * 1e-3},
                               {"ns_per_pixel", 1e6 * row.ms.median / static_cast<double>(row.work.pixels)}};
-  metrics.push_back({"peak_megabytes", static_cast<double>(row.peak_bytes) * 1e-6});
+  metrics.push_back({"percentile_5_ms", row.ms.percentile_5});
+  metrics.push_back({"reference_ms", row.reference_ms > 0 ? std::optional(row.reference_ms) : std::nullopt});
+  metrics.push_back({"peak_mebibytes", static_cast<double>(row.peak_bytes) / kMiB});
   metrics.push_back({"bytes_per_triangle", bytes_per_triangle(row)});
+  metrics.push_back({"roofline_traffic_gigabytes_per_second",
+                     row.roofline > 0 ? std::optional(achieved_bandwidth(row)) : std::nullopt});
   metrics.push_back(
       {"roofline_gigabytes_per_second", row.roofline > 0 ? std::optional(row.roofline) : std::nullopt});
   metrics.push_back({"share_of_roofline", row.roofline > 0
@@ -79,6 +84,12 @@ std::vector<Metric> metrics_of(const Row& row) {
   metrics.push_back({"ratio_to_baseline", to_baseline(&Ratio::value)});
   metrics.push_back({"low_ratio_to_baseline", to_baseline(&Ratio::low)});
   metrics.push_back({"high_ratio_to_baseline", to_baseline(&Ratio::high)});
+  const auto to_earlier = [&row](double Ratio::*part) {
+    return row.earlier_over_now ? std::optional((*row.earlier_over_now).*part) : std::nullopt;
+  };
+  metrics.push_back({"earlier_over_now", to_earlier(&Ratio::value)});
+  metrics.push_back({"low_earlier_over_now", to_earlier(&Ratio::low)});
+  metrics.push_back({"high_earlier_over_now", to_earlier(&Ratio::high)});
   metrics.push_back(
       {"cycles", row.counts ? std::optional(static_cast<double>(row.counts->cycles)) : std::nullopt});
   metrics.push_back({"instructions", row.counts ? std::optional(static_cast<double>(row.counts->instructions))
@@ -121,10 +132,33 @@ std::string setting_text(int width, int height, int threads, const std::string& 
                    instruction_set.c_str());
 }
 
+namespace {
+
+constexpr Column kRowColumns[] = {
+    {"median ms", "time of a frame after the warm-up, milliseconds: half of the frames took at most this"},
+    {"quartiles ms",
+     "a quarter of the frames took at most the first time, three quarters at most the second"},
+    {"95 % ms, 99 % ms", "that share of the frames took at most this"},
+    {"cold ms", "first frame, with the set-up of renderer and frame buffer"},
+    {"Mfrag/s", "million fragments shaded per second of the median frame; fill-z: tested"},
+    {"Mtri/s", "million triangles, lines or points submitted per second of the median frame"},
+    {"Mvert/s", "million vertices processed per second of the median frame"},
+    {"Mpix/s", "million pixels of the frame per second of the median frame, covered or not"},
+    {"GB/s", "10^9 bytes per second that a frame moves at least: meshes, loaded and stored planes, image"},
+    {"ns/pixel", "median ms in nanoseconds, divided by the pixels of the frame"},
+    {"peak MiB",
+     "growth of memory up to the end of the first frame, 2^20 bytes: mesh, planes, image included"},
+    {"B/tri", "bytes of that per triangle without mesh, planes and image; from 100,000 triangles on"},
+};
+
+}  // namespace
+
+std::string table_columns() { return column_lines(kRowColumns); }
+
 std::string table_heading() {
   return formatted("%-22s %9s  %-19s %9s %9s %9s %9s %8s %8s %8s %8s %8s %8s %6s\n", "workload", "median ms",
-                   "quartiles", "95 %", "99 %", "cold ms", "Mfrag/s", "Mtri/s", "Mvert/s", "Mpix/s", "GB/s",
-                   "ns/pixel", "peak MiB", "B/tri");
+                   "quartiles ms", "95 % ms", "99 % ms", "cold ms", "Mfrag/s", "Mtri/s", "Mvert/s", "Mpix/s",
+                   "GB/s", "ns/pixel", "peak MiB", "B/tri");
 }
 
 std::string table_line(const Row& row) {
@@ -174,7 +208,7 @@ std::string roofline_text(const Row& row) {
   const auto share_of = [achieved](double limit, Roofline roofline) {
     return formatted(", %.0f %% of %s (%.1f GB/s)", 100 * achieved / limit, name_of(roofline), limit);
   };
-  std::string text = formatted("%-22s moves %.1f GB/s", row.name.c_str(), achieved);
+  std::string text = formatted("%-22s roofline traffic %.1f GB/s", row.name.c_str(), achieved);
   text += share_of(row.roofline, row.work.roofline);
   if (row.l1_stores > 0) text += share_of(row.l1_stores, Roofline::l1_stores);
   return text + "\n";
@@ -182,12 +216,34 @@ std::string roofline_text(const Row& row) {
 
 }  // namespace
 
+namespace {
+
+/// How much the speed of the machine varied while the rows were measured.
+std::string reference_text(const std::vector<Row>& rows) {
+  double min = 0;
+  double max = 0;
+  for (const Row& row : rows) {
+    if (row.reference_ms <= 0) continue;
+    min = min > 0 ? std::min(min, row.reference_ms) : row.reference_ms;
+    max = std::max(max, row.reference_ms);
+  }
+  if (min <= 0) return {};
+  return formatted(
+      "reference work: %.2f to %.2f us per unit, in turns with the rows; it does not depend on Tessera, so "
+      "the speed "
+      "of the machine varied by %.0f %%\n",
+      1e3 * min, 1e3 * max, 100 * (max / min - 1));
+}
+
+}  // namespace
+
 std::string table_summary(const Report& report) {
   std::string text = report.rival_comparisons ? comparison_summary(*report.rival_comparisons) : "\n";
+  text += reference_text(report.rows);
   if (report.noise)
     text += formatted("noise: %s against itself: ratio %.3f (%.3f .. %.3f)\n", report.noise_of.c_str(),
                       report.noise->value, report.noise->low, report.noise->high);
-  text += bandwidth_text(report.bandwidth);
+  if (report.has_machine) text += bandwidth_text(report.bandwidth);
   if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
     text += formatted("core-to-core latency: %.0f ns (%.0f ns before the measurements)\n",
                       report.core_to_core_ns[1], report.core_to_core_ns[0]);
@@ -197,7 +253,8 @@ std::string table_summary(const Report& report) {
       text += formatted("%-22s takes %.3f (%.3f .. %.3f) times as long as %s\n", row.name.c_str(),
                         row.to_baseline->ratio.value, row.to_baseline->ratio.low, row.to_baseline->ratio.high,
                         row.to_baseline->baseline.c_str());
-  for (const Row& row : report.rows) text += roofline_text(row);
+  if (report.has_machine)
+    for (const Row& row : report.rows) text += roofline_text(row);
   return text;
 }
 
@@ -215,7 +272,7 @@ nlohmann::ordered_json report_json(const Report& report) {
     for (const Metric& metric : metrics)
       if (metric.value) entry[metric.key] = *metric.value;
   };
-  add(json["bandwidth_gigabytes_per_second"], metrics_of(report.bandwidth));
+  if (report.has_machine) add(json["bandwidth_gigabytes_per_second"], metrics_of(report.bandwidth));
   if (report.core_to_core_ns[0] > 0 && report.core_to_core_ns[1] > 0)
     json["core_to_core_ns"] = {{"before", report.core_to_core_ns[0]}, {"after", report.core_to_core_ns[1]}};
   if (report.noise)

@@ -9,22 +9,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "perf/bench/machine_bandwidth.h"
 #include "perf/bench/measure.h"
 #include "perf/bench/rival_comparisons.h"
 #include "perf/bench/scaling.h"
 
 namespace tessera::bench {
-
-/// 10^9 bytes/s; std::nullopt if there was no memory for the measurement.
-struct MachineBandwidth {
-  std::optional<double> l1_stores;
-  std::optional<double> frame_stores;   ///< memset of one image
-  std::optional<double> frame_copies;   ///< memcpy of one image
-  std::optional<double> tile_stores;    ///< 64 KiB per thread: 4 bytes per pixel of a 128x128 tile
-  std::optional<double> memory_stores;  ///< 256 MiB
-  std::optional<double> memory_loads;   ///< 256 MiB
-  std::optional<double> memory_loads_single_core;
-};
 
 struct Report {
   std::string machine;  ///< lines of "property   value"
@@ -34,6 +24,7 @@ struct Report {
   int tile_size = 0;  ///< pixels; 0: chosen per frame
   std::uint32_t seed = 1;
   std::vector<int> cores{};  ///< logical CPUs that the process is bound to; empty: all allowed ones
+  bool has_machine = false;  ///< whether `bandwidth` and latency were measured (--machine)
   MachineBandwidth bandwidth;
   std::array<double, 2> core_to_core_ns{};  ///< before and after all other measurements
   std::vector<Row> rows;
@@ -52,7 +43,9 @@ inline std::string setting_text(const Report& report) {
 
 std::string table_heading();
 std::string table_line(const Row& row);
-/// Lines below the table: noise, bandwidth, counters, ratios to baselines and shares of rooflines.
+/// Meaning of the columns, one line each.
+std::string table_columns();
+/// Lines below the table: drift, noise, bandwidth, counters, ratios to baselines and shares of rooflines.
 std::string table_summary(const Report& report);
 
 nlohmann::ordered_json report_json(const Report& report);

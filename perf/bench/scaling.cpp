@@ -14,6 +14,7 @@
 
 #include "engine/runtime/worker_pool.h"
 #include "perf/bench/bandwidth.h"
+#include "perf/bench/columns.h"
 #include "perf/bench/frame_costs.h"
 #include "perf/bench/independent_renderers.h"
 #include "perf/bench/text.h"
@@ -204,8 +205,26 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
   return scaling;
 }
 
+namespace {
+
+constexpr Column kScalingColumns[] = {
+    {"1 thread ms", "median time of a frame on one thread, milliseconds"},
+    {"N threads", "speed-up over one thread, measured in turns: 2 is twice as fast; its interval"},
+    {"2 independent", "speed-up of two renderers that share no data, one thread each"},
+    {"computed: Nx", "speed-up on N cores, predicted from the times of tasks"},
+    {"of 64", "efficiency on 64 cores: predicted speed-up / 64"},
+    {"busy", "share of the time on 64 cores: tasks and their dispatch"},
+    {"idle", "likewise: waiting for the last task of a pass and for the next pass"},
+    {"serial", "likewise: work of one core outside tasks"},
+    {"memory", "likewise: memory transfers that do not overlap the rest"},
+};
+
+}  // namespace
+
+std::string scaling_columns() { return column_lines(kScalingColumns); }
+
 std::string scaling_heading(int threads) {
-  std::string text = formatted("%-22s %9s ", "workload", "1 core ms");
+  std::string text = formatted("%-22s %11s ", "workload", "1 thread ms");
   for (const int count : measured_threads(threads))
     text += formatted(" %20s", (std::to_string(count) + " threads").c_str());
   if (threads > 1) text += formatted(" %20s", "2 independent");
@@ -217,7 +236,7 @@ std::string scaling_heading(int threads) {
 std::string scaling_line(const Scaling& scaling) {
   if (!scaling.fault.empty())
     return formatted("%-22s not timed: %s\n", scaling.workload.c_str(), scaling.fault.c_str());
-  std::string text = formatted("%-22s %9.3f ", scaling.workload.c_str(), scaling.one_ms);
+  std::string text = formatted("%-22s %11.3f ", scaling.workload.c_str(), scaling.one_ms);
   const auto measured = [&](const Ratio& speed) {
     text += formatted(" %5.2f (%.2f .. %.2f)", speed.value, speed.low, speed.high);
   };

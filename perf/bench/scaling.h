@@ -66,6 +66,8 @@ Scaling scaling_of(const WorkloadEntry& entry, const WorkloadSetup& setup, int t
                    const CoreModel& model, const MeasureOptions& options, const HardwareCounters& counters);
 
 std::string scaling_heading(int threads);
+/// Meaning of the columns, one line each.
+std::string scaling_columns();
 std::string scaling_line(const Scaling& scaling);
 nlohmann::ordered_json scaling_json(const std::vector<Scaling>& all);
 

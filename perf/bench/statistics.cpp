@@ -17,6 +17,7 @@ Statistics statistics_of(std::vector<double> values) {
   return {.median = percentile(0.5),
           .low_quartile = percentile(0.25),
           .high_quartile = percentile(0.75),
+          .percentile_5 = percentile(0.05),
           .percentile_95 = percentile(0.95),
           .percentile_99 = percentile(0.99),
           .min = values.front(),

@@ -9,6 +9,7 @@ struct Statistics {
   double median = 0;
   double low_quartile = 0;
   double high_quartile = 0;
+  double percentile_5 = 0;
   double percentile_95 = 0;
   double percentile_99 = 0;
   double min = 0;

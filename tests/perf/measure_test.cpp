@@ -2,10 +2,12 @@
 #include "perf/bench/measure.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include <gtest/gtest.h>
 
 #include "perf/bench/bandwidth.h"
+#include "perf/bench/reference_work.h"
 #include "perf/bench/rival_comparisons.h"
 
 namespace tessera::bench::measure_test {
@@ -149,6 +151,31 @@ TEST(BenchMeasure, ComparesTileStoresWithL1StoresToo) {
   const Row other = measure(std::vector{counting(log, 0, {.roofline = Roofline::memory_stores})}, options,
                             HardwareCounters())[0];
   EXPECT_EQ(other.l1_stores, 0) << "the roofline is not tile_stores";
+}
+
+TEST(BenchMeasure, TimesTheReferenceWorkInTurnsWithFrames) {
+  Log log;
+  MeasureOptions options = kFewFrames;
+  options.measures_reference = true;
+  const Row row = measure(std::vector{counting(log, 0)}, options, HardwareCounters())[0];
+  EXPECT_EQ(row.fault, "");
+  EXPECT_EQ(row.frames, 7u);
+  EXPECT_GT(row.reference_ms, 0);
+  EXPECT_LT(row.reference_ms, 100) << "a unit is some 60 us of arithmetic";
+  // Some turns of the workload are separated by the reference's: one more frame is drawn after each.
+  EXPECT_GT(log.frames.size(), 1u + 3 + 7 + 1);
+  EXPECT_EQ(measure(std::vector{counting(log, 0)}, kFewFrames, HardwareCounters())[0].reference_ms, 0);
+}
+
+TEST(BenchReferenceWork, HasUnitsForTheGivenTime) {
+  EXPECT_EQ(ReferenceWork(3, 1e-9).units(), 3u) << "at least one per thread";
+  const std::size_t one = ReferenceWork(1, 0.1).units();
+  EXPECT_GT(one, 10u);
+  ReferenceWork work(1, 0.1);
+  const auto start = std::chrono::steady_clock::now();
+  work.run();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_GT(seconds, 0.02) << "the compiler removed the work";
 }
 
 TEST(BenchMeasure, SlowRooflineDoesNotReduceFrames) {

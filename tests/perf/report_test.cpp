@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <sstream>
 
 namespace tessera::bench::report_test {
 namespace {
@@ -28,7 +31,8 @@ TEST(BenchReport, NamesMeasurementsWithoutMemory) {
   Row limited = kTimed;
   limited.work.roofline = Roofline::memory_copies;
   limited.work.roofline_bytes = 8000000;
-  const Report without{.bandwidth = {.l1_stores = 90.5, .memory_loads_single_core = 7},
+  const Report without{.has_machine = true,
+                       .bandwidth = {.l1_stores = 90.5, .memory_loads_single_core = 7},
                        .rows = {kTimed, limited}};
   const std::string text = table_summary(without);
   EXPECT_TRUE(has(
@@ -40,8 +44,9 @@ TEST(BenchReport, NamesMeasurementsWithoutMemory) {
   const nlohmann::ordered_json rates = report_json(without)["bandwidth_gigabytes_per_second"];
   EXPECT_EQ(rates, (nlohmann::ordered_json{{"l1_stores", 90.5}, {"memory_loads_single_core", 7.0}}));
   limited.roofline = 16;  // GB/s; 8 MB in 2 ms are 4 GB/s
-  const std::string share = table_summary({.rows = {limited}});
-  EXPECT_TRUE(share.ends_with("timed                  moves 4.0 GB/s, 25 % of memory copies (16.0 GB/s)\n"))
+  const std::string share = table_summary({.has_machine = true, .rows = {limited}});
+  EXPECT_TRUE(share.ends_with(
+      "timed                  roofline traffic 4.0 GB/s, 25 % of memory copies (16.0 GB/s)\n"))
       << share;
 }
 
@@ -51,9 +56,9 @@ TEST(BenchReport, ComparesTilesWithTileStoresAndL1Stores) {
   filled.work.roofline_bytes = 8000000;
   filled.roofline = 8;
   filled.l1_stores = 40;
-  const std::string text = table_summary({.rows = {filled}});
+  const std::string text = table_summary({.has_machine = true, .rows = {filled}});
   EXPECT_TRUE(text.ends_with(
-      "timed                  moves 4.0 GB/s, 50 % of tile stores (8.0 GB/s), 10 % of L1 stores "
+      "timed                  roofline traffic 4.0 GB/s, 50 % of tile stores (8.0 GB/s), 10 % of L1 stores "
       "(40.0 GB/s)\n"))
       << text;
   const nlohmann::ordered_json row = report_json({.rows = {filled}})["workloads"][0];
@@ -62,7 +67,64 @@ TEST(BenchReport, ComparesTilesWithTileStoresAndL1Stores) {
   EXPECT_EQ(row["l1_stores_gigabytes_per_second"], 40);
   EXPECT_EQ(row["share_of_l1_stores"], 0.1);
   filled.l1_stores = 0;  // no memory to measure it
-  EXPECT_TRUE(table_summary({.rows = {filled}}).ends_with("tile stores (8.0 GB/s)\n"));
+  EXPECT_TRUE(table_summary({.has_machine = true, .rows = {filled}}).ends_with("tile stores (8.0 GB/s)\n"));
+}
+
+TEST(BenchReport, ShowsTheMachineOnlyIfItWasMeasured) {
+  Row filled = kTimed;
+  filled.work.roofline = Roofline::tile_stores;
+  const Report report{.bandwidth = {.l1_stores = 90.5}, .rows = {filled}};
+  const std::string text = table_summary(report);
+  EXPECT_FALSE(has(text, "bandwidth")) << text;
+  EXPECT_FALSE(has(text, "no memory to measure")) << text;
+  EXPECT_FALSE(report_json(report).contains("bandwidth_gigabytes_per_second"));
+}
+
+TEST(BenchReport, ShowsHowMuchTheMachineVaried) {
+  Row slow = kTimed;
+  Row fast = kTimed;
+  slow.reference_ms = 0.09;
+  fast.reference_ms = 0.06;
+  const std::string text = table_summary({.rows = {slow, kTimed, fast}});
+  EXPECT_TRUE(has(text, "reference work: 60.00 to 90.00 us per unit")) << text;
+  EXPECT_TRUE(has(text, "varied by 50 %")) << text;
+  EXPECT_FALSE(has(table_summary({.rows = {kTimed}}), "reference work"));
+  const nlohmann::ordered_json rows = report_json({.rows = {slow, kTimed}})["workloads"];
+  EXPECT_EQ(rows[0]["reference_ms"], 0.09);
+  EXPECT_FALSE(rows[1].contains("reference_ms"));
+}
+
+/// Headings of a table: its words are separated by two spaces or more, or are single words with units.
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream words(text);
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+TEST(BenchReport, ExplainsEveryColumn) {
+  for (const auto& [heading, columns] : {std::pair(table_heading(), table_columns()),
+                                         {comparison_heading(), comparison_columns()},
+                                         {scaling_heading(2), scaling_columns()}})
+    for (const std::string& word : words_of(heading)) {
+      if (word == "workload" || word == "2" || std::isdigit(word.front()) != 0) continue;
+      EXPECT_TRUE(has(columns, word)) << word << " in\n" << columns;
+    }
+  for (const std::string& columns : {table_columns(), comparison_columns(), scaling_columns()}) {
+    EXPECT_TRUE(columns.starts_with("\n"));
+    EXPECT_TRUE(columns.ends_with("\n"));
+  }
+}
+
+// The table and --json have the same figures.
+TEST(BenchReport, TableAndJsonAgree) {
+  Row row = kTimed;
+  row.peak_bytes = std::uint64_t{48} << 20;
+  row.work.bytes = 6000000;
+  EXPECT_TRUE(has(table_heading(), "peak MiB"));
+  EXPECT_TRUE(has(table_line(row), " 48.0 ")) << table_line(row);
+  EXPECT_TRUE(has(table_line(row), " 3.00 ")) << "GB/s: 6 MB in 2 ms";
+  const nlohmann::ordered_json json = report_json({.rows = {row}})["workloads"][0];
+  EXPECT_EQ(json["peak_mebibytes"], 48);
+  EXPECT_DOUBLE_EQ(json["gigabytes_per_second"], 3);
 }
 
 TEST(BenchReport, ShowsRatiosToBaselines) {

@@ -11,8 +11,8 @@ namespace {
 
 TEST(BenchStatistics, SingleValueIsEveryStatistic) {
   const Statistics s = statistics_of({3});
-  for (const double value : {s.median, s.low_quartile, s.high_quartile, s.percentile_95, s.percentile_99,
-                             s.min, s.median_ci_low, s.median_ci_high})
+  for (const double value : {s.median, s.low_quartile, s.high_quartile, s.percentile_5, s.percentile_95,
+                             s.percentile_99, s.min, s.median_ci_low, s.median_ci_high})
     EXPECT_EQ(value, 3);
 }
 
@@ -35,6 +35,7 @@ TEST(BenchStatistics, ComputesPercentiles) {
   EXPECT_EQ(s.low_quartile, 50);
   EXPECT_EQ(s.median, 100);
   EXPECT_EQ(s.high_quartile, 150);
+  EXPECT_EQ(s.percentile_5, 10);
   EXPECT_EQ(s.percentile_95, 190);
   EXPECT_EQ(s.percentile_99, 198);
 }
