@@ -3,17 +3,10 @@
 #include <string>
 
 #include "engine/buffers/frame_buffer_state.h"
-#include "engine/buffers/image_target.h"
-#include "engine/buffers/view_depth.h"
-#include "engine/plan/draw_plan.h"
 #include "engine/record/checks.h"
 #include "engine/runtime/floating_point_mode.h"
 #include "engine/runtime/out_of_memory.h"
-#include "engine/runtime/worker_pool.h"
 #include "engine/tessera/tessera.hpp"
-#include "framebuffer/accumulation.h"
-#include "framebuffer/bit_transpose.h"
-#include "framebuffer/scan_out.h"
 
 namespace tessera {
 using namespace detail;
@@ -27,6 +20,17 @@ std::string_view name(Buffer buffer) {
     case Buffer::stencil: return "stencil";
     default: return "accumulation";
   }
+}
+
+const Attachment& require_readable(FrameBufferState& state, Buffer which, const char* function) {
+  const Attachment& buffer = state.stored_buffer(which);
+  if (buffer.planes.plane_count() == 0)
+    throw Error(ErrorCode::incompatible_format,
+                std::string(function) + ": the frame buffer has no " + std::string(name(which)) + " buffer");
+  if (buffer.content == Attachment::Content::undefined)
+    throw Error(ErrorCode::invalid_state, std::string(function) + ": the last frame did not keep the " +
+                                              std::string(name(which)) + " buffer; name it in Frame::keep()");
+  return buffer;
 }
 
 }  // namespace detail
@@ -50,55 +54,7 @@ std::vector<Color> to_colors(const std::vector<Rgb8>& entries) {
   return colors;
 }
 
-void require_image(const ImageTarget& target, const FrameBufferFormat& format, const char* function) {
-  if (target.pixels == nullptr)
-    throw Error(ErrorCode::invalid_argument,
-                std::string(function) + ": the target's pixels are a null pointer");
-  if (target.width != format.width || target.height != format.height)
-    throw Error(ErrorCode::invalid_argument,
-                std::string(function) + ": the target is " + std::to_string(target.width) + " x " +
-                    std::to_string(target.height) + " pixels, the frame buffer is " +
-                    std::to_string(format.width) + " x " + std::to_string(format.height));
-  const std::ptrdiff_t row = std::ptrdiff_t{4} * target.width;
-  const bool rows_overlap = row_stride(target) < row && row_stride(target) > -row;
-  if (target.height > 1 && rows_overlap)
-    throw Error(ErrorCode::invalid_argument, std::string(function) + ": the target's stride is " +
-                                                 std::to_string(target.stride_bytes) +
-                                                 " bytes, a row takes " + std::to_string(row));
-  require_enum({function, ": the target's order"}, target.order, PixelOrder::bgra8);
-  if (target.region && (target.region->width < 0 || target.region->height < 0))
-    throw Error(ErrorCode::invalid_argument,
-                std::string(function) + ": the target's region is " + std::to_string(target.region->width) +
-                    " x " + std::to_string(target.region->height) + " pixels, must not be negative");
-}
-
-template <class T>
-void require_pixels(std::span<T> span, const FrameBufferFormat& format, const char* function,
-                    std::size_t components = 1) {
-  const std::size_t pixels = static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
-  if (span.size() != components * pixels)
-    throw Error(ErrorCode::invalid_argument,
-                std::string(function) + ": the span holds " + std::to_string(span.size()) +
-                    " elements, the frame buffer has " + std::to_string(pixels) + " pixels" +
-                    (components > 1 ? " of " + std::to_string(components) + " components" : ""));
-}
-
 }  // namespace
-
-namespace detail {
-
-void check_image_target(const ImageTarget& target, const FrameBufferFormat& format) {
-  require_image(target, format, "Renderer::finish");
-}
-
-PixelRect target_region(const ImageTarget& target) {
-  const PixelRect whole{0, 0, target.width, target.height};
-  if (!target.region) return whole;
-  const PixelRect region = intersect(whole, raster_rect(*target.region, target.height));
-  return region.empty() ? PixelRect{} : region;
-}
-
-}  // namespace detail
 
 std::vector<Color> named_palette(std::string_view palette_name, int color_bits) try {
   require_range("color_bits", color_bits, 1, 24);
@@ -312,60 +268,9 @@ std::size_t FrameBuffer::allocated_bytes(Buffer buffer) const noexcept {
   return bytes;
 }
 
-namespace {
-
-const Attachment& require_defined(FrameBufferState& state, Buffer which, const char* function) {
-  const Attachment& buffer = state.stored_buffer(which);
-  if (buffer.planes.plane_count() == 0)
-    throw Error(ErrorCode::incompatible_format,
-                std::string(function) + ": the frame buffer has no " + std::string(name(which)) + " buffer");
-  if (buffer.content == Attachment::Content::undefined)
-    throw Error(ErrorCode::invalid_state, std::string(function) + ": the last frame did not keep the " +
-                                              std::string(name(which)) + " buffer; name it in Frame::keep()");
-  return buffer;
-}
-
-/// Calls use(words of a row, y) for every row from the top. Planes are read in bands of tiles.
-template <class Use>
-void for_each_row(const Attachment& buffer, const char* function, const Use& use) {
-  constexpr int kBandRows = 32;
-  const int width = buffer.planes.width_px();
-  const int height = buffer.planes.height_px();
-  LoadPlanesFn* const load =
-      translate_bad_alloc(function, [] { return load_planes_for(available_isas().front()); });
-  auto band = translate_bad_alloc(function, [&] {
-    return std::vector<std::uint32_t>(static_cast<std::size_t>(width) * kBandRows, buffer.clear_value);
-  });
-  const auto row = [&](int y) {
-    return band.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-  };
-  alignas(kPlaneAlignment) std::uint32_t tile[kBandRows * kBandRows];
-  for (int y0 = 0; y0 < height; y0 += kBandRows) {
-    const int rows = std::min(kBandRows, height - y0);
-    if (buffer.content != Attachment::Content::fast_cleared) {
-      for (int x0 = 0; x0 < width; x0 += kBandRows) {
-        load(tile, {x0, y0, kBandRows, 0}, buffer.planes);
-        for (int y = 0; y < rows; ++y)
-          for (int x = 0; x < std::min(kBandRows, width - x0); x += kBlockSize)
-            std::copy_n(tile + tile_index(x, y, kBandRows), std::min(kBlockSize, width - x0 - x),
-                        row(y) + x0 + x);
-      }
-    }
-    for (int y = 0; y < rows; ++y)
-      use(std::span<const std::uint32_t>(row(y), static_cast<std::size_t>(width)),
-          static_cast<std::size_t>(y0 + y));
-  }
-}
-template <class Use>
-void for_each_row(FrameBufferState& state, Buffer which, const char* function, const Use& use) {
-  for_each_row(require_defined(state, which, function), function, use);
-}
-
-}  // namespace
-
 PlaneView FrameBuffer::plane(Buffer which, int k) const try {
   require_enum({"FrameBuffer::plane: buffer"}, which, Buffer::accumulation);
-  require_defined(*state_, which, "FrameBuffer::plane");
+  require_readable(*state_, which, "FrameBuffer::plane");
   if (k < 0 || k >= plane_count(which))
     throw Error(ErrorCode::invalid_argument,
                 "FrameBuffer::plane: plane " + std::to_string(k) + " of the " + std::string(name(which)) +
@@ -379,89 +284,6 @@ PlaneView FrameBuffer::plane(Buffer which, int k) const try {
 } catch (const std::bad_alloc&) {
   throw Error(ErrorCode::out_of_memory,
               "FrameBuffer::plane: not enough memory for the " + std::string(name(which)) + " planes");
-}
-
-void FrameBuffer::read_color(const ImageTarget& target) const {
-  require_image(target, state_->format, "FrameBuffer::read_color");
-  const FloatingPointMode mode;
-  const auto scan_out = translate_bad_alloc("FrameBuffer::read_color", [&] {
-    return ScanOut(state_->stored_layout, state_->stored_layout.index ? &state_->palette : nullptr,
-                   target.order, available_isas().front());
-  });
-  const PixelRect region = target_region(target);
-  for_each_row(*state_, Buffer::color, "FrameBuffer::read_color",
-               [&](std::span<const std::uint32_t> row, std::size_t y) {
-                 if (static_cast<int>(y) < region.y0 || static_cast<int>(y) >= region.y1) return;
-                 auto* const pixels = static_cast<std::uint8_t*>(target.pixels) +
-                                      static_cast<std::ptrdiff_t>(y) * row_stride(target);
-                 scan_out.row(row.data() + region.x0, region.x1 - region.x0,
-                              pixels + 4 * static_cast<std::ptrdiff_t>(region.x0));
-               });
-}
-
-void FrameBuffer::read_packed_colors(std::span<std::uint32_t> words) const {
-  require_pixels(words, state_->format, "FrameBuffer::read_packed_colors");
-  for_each_row(*state_, Buffer::color, "FrameBuffer::read_packed_colors",
-               [&](std::span<const std::uint32_t> row, std::size_t y) {
-                 std::copy(row.begin(), row.end(),
-                           words.begin() + static_cast<std::ptrdiff_t>(y * row.size()));
-               });
-}
-
-void FrameBuffer::read_depth(std::span<float> depth) const {
-  require_pixels(depth, state_->format, "FrameBuffer::read_depth");
-  const DepthFormat kind = state_->depth_format;
-  const FloatingPointMode mode;
-  for_each_row(*state_, Buffer::depth, "FrameBuffer::read_depth",
-               [&](std::span<const std::uint32_t> row, std::size_t y) {
-                 for (std::size_t x = 0; x < row.size(); ++x)
-                   depth[y * row.size() + x] = static_cast<float>(dequantize_depth(kind, row[x]));
-               });
-}
-
-void FrameBuffer::read_stored_depths(std::span<std::uint32_t> words) const {
-  require_pixels(words, state_->format, "FrameBuffer::read_stored_depths");
-  for_each_row(*state_, Buffer::depth, "FrameBuffer::read_stored_depths",
-               [&](std::span<const std::uint32_t> row, std::size_t y) {
-                 std::copy(row.begin(), row.end(),
-                           words.begin() + static_cast<std::ptrdiff_t>(y * row.size()));
-               });
-}
-
-void FrameBuffer::read_view_depth(std::span<float> depth, const Camera& camera, float background) const {
-  constexpr const char* kFunction = "FrameBuffer::read_view_depth";
-  require_pixels(depth, state_->format, kFunction);
-  const DepthFormat kind = state_->depth_format;
-  const FloatingPointMode mode;
-  const ViewDepth distance(camera, background, kFunction);
-  for_each_row(*state_, Buffer::depth, kFunction, [&](std::span<const std::uint32_t> row, std::size_t y) {
-    for (std::size_t x = 0; x < row.size(); ++x)
-      depth[y * row.size() + x] = distance.at(dequantize_depth(kind, row[x]));
-  });
-}
-
-void FrameBuffer::read_stencil(std::span<std::uint8_t> stencil) const {
-  require_pixels(stencil, state_->format, "FrameBuffer::read_stencil");
-  for_each_row(*state_, Buffer::stencil, "FrameBuffer::read_stencil",
-               [&](std::span<const std::uint32_t> row, std::size_t y) {
-                 for (std::size_t x = 0; x < row.size(); ++x)
-                   stencil[y * row.size() + x] = static_cast<std::uint8_t>(row[x]);
-               });
-}
-
-void FrameBuffer::read_accumulation(std::span<float> rgba) const {
-  constexpr const char* kFunction = "FrameBuffer::read_accumulation";
-  require_pixels(rgba, state_->format, kFunction, 4);
-  require_defined(*state_, Buffer::accumulation, kFunction);
-  const int bits = state_->format.accumulation_bits;
-  const FloatingPointMode mode;
-  for (std::size_t c = 0; c < 4; ++c)
-    for_each_row(state_->accumulation[c], kFunction, [&](std::span<const std::uint32_t> row, std::size_t y) {
-      // The lowest level lies one step below -1.
-      for (std::size_t x = 0; x < row.size(); ++x)
-        rgba[4 * (y * row.size() + x) + c] = static_cast<float>(
-            std::max(accumulation_level_from_stored(row[x], bits) / accumulation_one(bits), -1.0));
-    });
 }
 
 }  // namespace tessera

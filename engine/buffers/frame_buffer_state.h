@@ -114,4 +114,8 @@ struct FrameBufferState {
 
 std::string_view name(Buffer buffer);
 
+/// The first stack of a buffer that `function` reads back.
+/// @throws Error  if the format lacks the buffer, or the last frame did not keep it
+const Attachment& require_readable(FrameBufferState& state, Buffer which, const char* function);
+
 }  // namespace tessera::detail

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/buffers/image_target.h"
 #include "engine/plan/draw_plan.h"
 #include "engine/record/checks.h"
 #include "engine/record/planar_shadow.h"
@@ -282,13 +283,15 @@ void Frame::keep(std::initializer_list<Buffer> buffers) {
 }
 
 void Frame::capture(const Capture& capture) {
-  const FrameBufferFormat& format = recording_->target->format;
-  const std::size_t pixels = static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
+  const PixelRect region = pixels_of_region(capture.region, recording_->target->format, "Frame::capture");
+  const std::size_t pixels =
+      static_cast<std::size_t>(region.x1 - region.x0) * static_cast<std::size_t>(region.y1 - region.y0);
   const auto require_size = [&](const char* what, std::size_t found, std::size_t needed) {
     if (found != 0 && found != needed)
-      throw Error(ErrorCode::invalid_argument,
-                  std::string("Frame::capture: the span for ") + what + " holds " + std::to_string(found) +
-                      " elements, the frame buffer needs " + std::to_string(needed));
+      throw Error(ErrorCode::invalid_argument, std::string("Frame::capture: the span for ") + what +
+                                                   " holds " + std::to_string(found) + " elements, " +
+                                                   (capture.region ? "the region" : "the frame buffer") +
+                                                   " needs " + std::to_string(needed));
   };
   require_size("draw_ids", capture.draw_ids.size(), pixels);
   require_size("primitive_ids", capture.primitive_ids.size(), pixels);

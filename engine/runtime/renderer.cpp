@@ -111,7 +111,7 @@ FrameStats Renderer::finish(Frame& frame) {
 
 FrameStats Renderer::finish(Frame& frame, const ImageTarget& target) {
   FrameRecording& recording = require_recording(frame.recording_);
-  check_image_target(target, recording.target->format);
+  check_image_target(target, recording.target->format, "Renderer::finish");
   return finish_frame(*state_, recording, &target);
 }
 

@@ -3,13 +3,18 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/plan/draw_plan.h"
 #include "shading/lighting.h"
 
 namespace tessera::detail {
 
 CaptureStage::CaptureStage(const FrameCommands& commands, const TileFrame& frame, const Capture& capture,
                            bool count_fragments, InstructionSet isa)
-    : capture_(capture), grid_(frame.grid), render_(detail::render_tile(isa)) {
+    : capture_(capture),
+      grid_(frame.grid),
+      region_{0, 0, grid_.width_px, grid_.height_px},
+      render_(detail::render_tile(isa)) {
+  if (capture.region) region_ = raster_rect(*capture.region, grid_.height_px);
   normal_program_.needs_normal = normal_program_.renormalize = true;
   const bool captures_ids = !capture.draw_ids.empty() || !capture.primitive_ids.empty();
   const bool has_passes = captures_ids || !capture.normals.empty() || count_fragments;
@@ -113,37 +118,28 @@ void CaptureStage::change_output(Pass& pass, TileDraw& draw, const FrameCommands
 
 std::uint64_t CaptureStage::render_pass(const Pass& pass, int row, int column,
                                         TileWorkspace& workspace) const {
-  const int size = grid_.tile_size;
-  const int x0 = column * size, y0 = row * size;
-  std::fill_n(workspace.color(), size * size, Capture::kNothing);
+  const PixelRect pixels = captured_pixels(row, column);
+  std::fill_n(workspace.color(), grid_.tile_size * grid_.tile_size, Capture::kNothing);
   const TileCounts counts = render_(pass.frame, row * grid_.columns() + column, workspace);
-  if (pass.kind == PassKind::draw_ids) write_ids(capture_.draw_ids, x0, y0, workspace);
-  if (pass.kind == PassKind::primitive_ids) write_ids(capture_.primitive_ids, x0, y0, workspace);
-  if (pass.kind == PassKind::normals) write_normals(x0, y0, workspace);
+  if (pass.kind == PassKind::draw_ids) write_ids(capture_.draw_ids, pixels, workspace);
+  if (pass.kind == PassKind::primitive_ids) write_ids(capture_.primitive_ids, pixels, workspace);
+  if (pass.kind == PassKind::normals) write_normals(pixels, workspace);
   return pass.kind == PassKind::fragments ? counts.shaded_pixels : 0;
 }
 
-void CaptureStage::write_ids(std::span<std::uint32_t> to, int x0, int y0, TileWorkspace& workspace) const {
-  const int size = grid_.tile_size;
-  const int width = std::min(size, grid_.width_px - x0);
-  const int height = std::min(size, grid_.height_px - y0);
-  for (int y = 0; y < height; ++y) {
-    std::uint32_t* const out =
-        to.data() + static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid_.width_px) + x0;
-    for (int x = 0; x < width; ++x) out[x] = workspace.color()[tile_index(x, y, size)];
+void CaptureStage::write_ids(std::span<std::uint32_t> to, const PixelRect& pixels,
+                             TileWorkspace& workspace) const {
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    std::uint32_t* out = to.data() + span_index(pixels.x0, y);
+    for (int x = pixels.x0; x < pixels.x1; ++x) *out++ = workspace.color()[tile_index_of(x, y)];
   }
 }
 
-void CaptureStage::write_normals(int x0, int y0, TileWorkspace& workspace) const {
-  const int size = grid_.tile_size;
-  const int width = std::min(size, grid_.width_px - x0);
-  const int height = std::min(size, grid_.height_px - y0);
-  for (int y = 0; y < height; ++y) {
-    float* out = capture_.normals.data() +
-                 3 * (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid_.width_px) +
-                      static_cast<std::size_t>(x0));
-    for (int x = 0; x < width; ++x, out += 3) {
-      const int at = tile_index(x, y, size);
+void CaptureStage::write_normals(const PixelRect& pixels, TileWorkspace& workspace) const {
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    float* out = capture_.normals.data() + 3 * span_index(pixels.x0, y);
+    for (int x = pixels.x0; x < pixels.x1; ++x, out += 3) {
+      const int at = tile_index_of(x, y);
       const bool drawn = workspace.color()[at] != Capture::kNothing;
       for (int c = 0; c < 3; ++c) out[c] = drawn ? workspace.normals(c)[at] : 0.0f;
     }

@@ -148,7 +148,8 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
   const int size = grid.tile_size;
   const int x0 = column * size, y0 = row * size;
   const bool shown = !intersect(target_region_, {x0, y0, x0 + size, y0 + size}).empty();
-  if (!shown && !commands_.attachments.any_stores() && !capture_.any()) return;
+  const bool captured = capture_.renders(row, column);
+  if (!shown && !captured && !commands_.attachments.any_stores()) return;
   const TilePlace color_place{x0, y0, size, 0};
   const TilePlace depth_place{x0, y0, size, stored_depth_from_key(target_.depth_format, 0)};
   auto* depth_words = reinterpret_cast<std::uint32_t*>(workspace.depth());
@@ -158,7 +159,7 @@ void TileStage::render_tile_at(int row, int column, TileWorkspace& workspace, St
     load(commands_.attachments.depth, target_.depth, depth_words, depth_place);
     load(commands_.attachments.stencil, target_.stencil, stencil_words, color_place);
   };
-  if (capture_.any()) counts.fragments += capture_.render_tile(row, column, workspace, load_tests);
+  if (captured) counts.fragments += capture_.render_tile(row, column, workspace, load_tests);
   load(commands_.attachments.color, target_.color, workspace.color(), color_place);
   load_tests();
   if (commands_.attachments.accumulation.used()) load_accumulation(color_place, workspace.accumulation());

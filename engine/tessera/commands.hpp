@@ -58,8 +58,8 @@ struct Accum {
 };
 
 /// Per-pixel data that finish() writes next to the picture, for picking and for tools.
-/// - Rows from the top, width * height pixels. Borrowed until the frame is finished or reset.
-/// - Cost: one more pass over the tiles per non-empty span.
+/// - Rows from the top, the pixels of `region`. Borrowed until the frame is finished or reset.
+/// - Cost: one more pass over the tiles of the region per non-empty span.
 /// - MSAA buffers: evaluated at pixel centres; points and lines as with one sample.
 /// - Where draws are blended, the last one that passed the tests counts. Accumulation is ignored.
 struct Capture {
@@ -73,6 +73,8 @@ struct Capture {
   /// - Meshes without normals: means of the face normals.
   /// - 0 0 0 for background, bitmaps and images, and where normals cancel.
   std::span<float> normals{};
+  /// The pixels that are captured, down to one; must lie in the frame buffer. Absent: all.
+  std::optional<Rect> region{};
 };
 
 }  // namespace tessera

@@ -16,6 +16,7 @@
 namespace tessera {
 
 struct Camera;
+class Renderer;
 
 inline constexpr int kMaxFrameBufferSize = 16384;  ///< largest width and height, pixels
 
@@ -75,11 +76,30 @@ struct ImageTarget {
   std::optional<Rect> region{};  ///< only these pixels are written; clipped to the picture; absent: all
 };
 
+/// How functions of FrameBuffer read a buffer back.
+struct ReadOptions {
+  /// The pixels that are read, down to one; must lie in the frame buffer. Absent: all.
+  std::optional<Rect> region{};
+  /// Reads with the workers of this renderer; null: on the calling thread. The values are the same.
+  /// - The call and the renderer's finish() must not run concurrently. Within the renderer's own progress
+  ///   callback, reading is single-threaded.
+  Renderer* workers = nullptr;
+};
+
 /// A stack of bitplanes, one bit per pixel and plane.
 /// - New buffers hold colour 0, depth 1, stencil 0, accumulation 0.
 /// - Memory of a buffer is allocated when a frame first stores drawn content in it; a clear alone allocates
 ///   nothing.
 /// - A frame buffer that was moved from may only be assigned to or destroyed.
+/// @code
+/// FrameBuffer buffer({.width = 320, .height = 200, .color_bits = 12, .depth = DepthFormat::float32});
+/// Frame frame(buffer);
+/// frame.clear({.color = Color{0.2f, 0.4f, 0.6f, 1}, .depth = 1.0});
+/// renderer.finish(frame);
+/// float depth = 0;
+/// buffer.read_depth({&depth, 1}, {.region = Rect{160, 100, 1, 1}});
+/// const PlaneView lowest_bit_of_blue = buffer.plane(Buffer::color, 0);
+/// @endcode
 class TESSERA_API FrameBuffer {
  public:
   /// @throws Error  for sizes, bits or palettes out of range, or out of memory
@@ -118,31 +138,35 @@ class TESSERA_API FrameBuffer {
   /// @throws Error  if there is no such plane, or the last frame did not keep the buffer
   PlaneView plane(Buffer buffer, int k) const;
 
-  // Functions that read the planes back: serial, rows from the top.
-  // They throw Error for a size other than width * height pixels, and for a buffer that the format lacks or
-  // that the last frame did not keep.
+  // Functions that read the planes back, rows from the top. Spans hold one element per pixel that is read.
+  // They throw Error for spans of another size, for regions that are not in the frame buffer, for a buffer
+  // that the format lacks or that the last frame did not keep, and for a moved-from renderer.
 
   /// The picture that a display shows, through the palette.
-  void read_color(const ImageTarget& target) const;
+  /// @param workers  see ReadOptions::workers; `target` has the region
+  void read_color(const ImageTarget& target, Renderer* workers = nullptr) const;
   /// Stored words A:R:G:B, or indices.
-  void read_packed_colors(std::span<std::uint32_t> words) const;
+  void read_packed_colors(std::span<std::uint32_t> words, const ReadOptions& options = {}) const;
   /// Depth, 0 near to 1 far.
-  void read_depth(std::span<float> depth) const;
+  void read_depth(std::span<float> depth, const ReadOptions& options = {}) const;
   /// Stored levels of unorm formats; the bits of the float for float32.
-  void read_stored_depths(std::span<std::uint32_t> words) const;
+  void read_stored_depths(std::span<std::uint32_t> words, const ReadOptions& options = {}) const;
   /// Distances from the eye plane along the view direction, in the camera's units.
   /// - Valid for draws with this projection and the depth range 0 to 1. The camera's view is ignored.
   /// - `background`, any float, is written where the depth is that of the far end.
   /// @throws Error  also if the projection is not finite, or does not map depth to one distance
-  void read_view_depth(std::span<float> depth, const Camera& camera, float background = 0) const;
+  void read_view_depth(std::span<float> depth, const Camera& camera, float background = 0,
+                       const ReadOptions& options = {}) const;
   /// Stencil values, 0 to 2^stencil_bits - 1.
-  void read_stencil(std::span<std::uint8_t> stencil) const;
-  /// r g b a per pixel, -1 to 1: 4 * width * height floats.
-  void read_accumulation(std::span<float> rgba) const;
+  void read_stencil(std::span<std::uint8_t> stencil, const ReadOptions& options = {}) const;
+  /// r g b a, -1 to 1: 4 floats per pixel.
+  void read_accumulation(std::span<float> rgba, const ReadOptions& options = {}) const;
 
  private:
   friend class Renderer;
   friend class Frame;
+  /// Null without a renderer. @throws Error  if it was moved from
+  static detail::WorkerPool* worker_pool(Renderer* renderer, const char* function);
   std::unique_ptr<detail::FrameBufferState> state_;
 };
 

@@ -144,6 +144,18 @@ struct RendererOptions {
 
 /// Owns worker threads and the working memory of frames. Create one and use it for many frames and frame
 /// buffers. A renderer that was moved from may only be assigned to or destroyed.
+/// @code
+/// Renderer renderer({.threads = 4});
+/// FrameBuffer buffer({.width = 640, .height = 480});
+/// Frame frame(buffer);
+/// std::vector<std::uint8_t> pixels(4 * 640 * 480);
+/// for (int i = 0; i < 100; ++i) {
+///   frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+///   frame.draw(mesh, {.transform = rotate(3.6 * i, 0, 1, 0)});
+///   const FrameStats stats = renderer.finish(frame, {.pixels = pixels.data(), .width = 640, .height = 480});
+///   std::printf("%.1f ms\n", 1000 * stats.tile_seconds);
+/// }
+/// @endcode
 class TESSERA_API Renderer {
  public:
   /// @throws Error  for options out of range, an instruction set that this machine lacks, or out of memory
@@ -173,6 +185,7 @@ class TESSERA_API Renderer {
 
  private:
   friend class Frame;
+  friend class FrameBuffer;
   std::unique_ptr<detail::RendererState> state_;
 };
 

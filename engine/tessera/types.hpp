@@ -22,6 +22,7 @@ struct FrameBufferState;
 struct FrameRecording;
 struct RendererState;
 struct TextureState;
+class WorkerPool;
 }  // namespace detail
 
 /// Version of the library that runs, "0.1.0". TESSERA_VERSION is the version of the headers.
