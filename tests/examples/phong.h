@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Data of the stage: the light in eye space, and the material.
+// The data of the stage besides the fragments: the light in eye space, and the material.
 struct Phong {
   float light[3], diffuse[3], specular;
   int shininess;

@@ -7,7 +7,7 @@
 
 int main() {
   constexpr int kWidth = 320, kHeight = 240, kRings = 24, kSides = 48;
-  std::vector<float> positions;  // a vase; its normals are generated
+  std::vector<float> positions;  // vertices of a vase; its normals are generated
   std::vector<std::uint32_t> indices;
   for (int ring = 0; ring <= kRings; ++ring)
     for (int side = 0; side < kSides; ++side) {

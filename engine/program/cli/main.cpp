@@ -199,8 +199,7 @@ int* threads_of(const Commands& commands, Requests& requests) {
 int run_command(const CLI::App& program, const Commands& commands, Requests& requests) {
   if (int* const threads = threads_of(commands, requests); threads != nullptr)
     read_threads_variable(*threads);
-  // A closed pipe is an error of the write. Commands that print text end silently, as others in a pipeline
-  // do.
+  // A closed pipe is an error of the write. Commands that print text end silently, as others in pipelines do.
   for (const CLI::App* writer :
        {commands.render, commands.compare, commands.modes, commands.display, commands.scene})
     if (writer->parsed()) std::signal(SIGPIPE, SIG_IGN);
