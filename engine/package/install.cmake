@@ -5,6 +5,7 @@
 #   imageio      module for image files               libtessera-imageioN
 #   import       module for models                    libtessera-importN
 #   program      bin/tessera                          tessera
+#   documentation  share/doc/libtessera-doc           libtessera-doc
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tessera)
@@ -15,6 +16,7 @@ set(tessera_package_development libtessera-dev)
 set(tessera_package_imageio libtessera-imageio${tessera_soversion})
 set(tessera_package_import libtessera-import${tessera_soversion})
 set(tessera_package_program tessera)
+set(tessera_package_documentation libtessera-doc)
 
 install(TARGETS tessera EXPORT tessera-shared
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development)
@@ -96,6 +98,34 @@ if(TARGET tessera_cli AND NOT CMAKE_CROSSCOMPILING)
   endforeach()
 endif()
 
+# Documentation: HTML of the public headers if there is Doxygen, guides, scene reference, options, examples.
+set(tessera_doc_dir ${CMAKE_INSTALL_DATADIR}/doc/${tessera_package_documentation})
+install(FILES LICENSE DESTINATION ${tessera_doc_dir} RENAME copyright COMPONENT documentation)
+install(FILES CHANGELOG.md DESTINATION ${tessera_doc_dir} COMPONENT documentation)
+foreach(page engine/README.md engine/program/README.md engine/program/scenes/README.md)
+  get_filename_component(folder ${page} DIRECTORY)
+  install(FILES ${page} DESTINATION ${tessera_doc_dir}/${folder} COMPONENT documentation)
+endforeach()
+install(DIRECTORY tests/examples DESTINATION ${tessera_doc_dir} COMPONENT documentation
+  FILES_MATCHING PATTERN "*.cpp" PATTERN "*.h" PATTERN "CMakeLists.txt")
+find_program(TESSERA_DOXYGEN doxygen)
+mark_as_advanced(TESSERA_DOXYGEN)
+if(TESSERA_DOXYGEN)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/Doxyfile.in ${built_dir}/Doxyfile @ONLY)
+  file(GLOB documented_headers CONFIGURE_DEPENDS engine/tessera/*.h* framebuffer/tessera/*.h*)
+  # Doxygen fails on warnings. A failure leaves no stamp.
+  add_custom_command(OUTPUT ${built_dir}/html.stamp
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${built_dir}/html
+    COMMAND ${TESSERA_DOXYGEN} ${built_dir}/Doxyfile
+    COMMAND ${CMAKE_COMMAND} -E touch ${built_dir}/html.stamp
+    DEPENDS ${documented_headers} ${built_dir}/Doxyfile COMMENT "HTML of the public headers" VERBATIM)
+  add_custom_target(tessera_html ALL DEPENDS ${built_dir}/html.stamp)
+  install(DIRECTORY ${built_dir}/html DESTINATION ${tessera_doc_dir} COMPONENT documentation)
+endif()
+if(TARGET tessera_cli AND NOT CMAKE_CROSSCOMPILING)
+  install(FILES ${built_dir}/tessera.1 DESTINATION ${tessera_doc_dir} RENAME options.1 COMPONENT documentation)
+endif()
+
 # Builds everything that is installed, without tests.
 add_custom_target(installed DEPENDS tessera tessera_display tessera_static)
 if(TARGET tessera_cli)
@@ -106,8 +136,10 @@ foreach(program tessera_bench tessera_accuracy)
     add_dependencies(installed ${program})
   endif()
 endforeach()
-if(TARGET tessera_pages)
-  add_dependencies(installed tessera_pages)
-endif()
+foreach(target tessera_pages tessera_html)
+  if(TARGET ${target})
+    add_dependencies(installed ${target})
+  endif()
+endforeach()
 
 include(${CMAKE_CURRENT_LIST_DIR}/debian.cmake)

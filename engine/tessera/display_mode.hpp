@@ -24,6 +24,11 @@ struct AspectRatio {
 };
 
 /// A mode of a display adapter or a panel.
+/// @code
+/// const DisplayMode mode = display_mode("cga");  // or "320x200x8"
+/// FrameBuffer cga(frame_buffer_format(mode));
+/// std::printf("%d x %d, %.2f\n", mode.width, mode.height, mode.screen_aspect());
+/// @endcode
 struct DisplayMode {
   std::string name;         ///< as given to display_mode()
   std::string description;  ///< adapter and colours

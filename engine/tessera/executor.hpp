@@ -8,6 +8,16 @@
 namespace tessera {
 
 /// Runs the work of frames on threads of the caller's choice. Without one, renderers use oneTBB.
+/// @code
+/// struct Threads : Executor {  // new threads for each call; tests/examples/own_threads.cpp keeps a pool
+///   int workers() const noexcept override { return 4; }
+///   void run(int count, void (*work)(void*, int), void* context) override {
+///     std::vector<std::jthread> threads;
+///     for (int k = 0; k < count; ++k) threads.emplace_back(work, context, k);
+///   }
+/// };
+/// Renderer on_threads({.executor = std::make_shared<Threads>()});
+/// @endcode
 class TESSERA_API Executor {
  public:
   virtual ~Executor();

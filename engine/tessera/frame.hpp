@@ -65,6 +65,17 @@ TESSERA_API std::string text(const BufferNote& note);
 /// - The frame buffer must outlive the frame. It may be moved, and must not be assigned to.
 /// - Arguments are checked when they are recorded. A call that throws records nothing.
 /// - A frame that was moved from may only be assigned to or destroyed.
+/// @code
+/// Frame frame(buffer);
+/// frame.set_camera({.view = look_at({0, 1, 5}, {0, 0, 0}, {0, 1, 0}),
+///                   .projection = perspective(45, 1.5, 0.1, 50)});
+/// frame.set_lights({Light{.position = {1, 2, 3, 0}}});
+/// frame.clear({.color = Color{0, 0, 0, 1}, .depth = 1.0});
+/// frame.draw(mesh, {.shading = Shading::phong});
+/// std::printf("%s", frame.explain(0).c_str());  // what runs for draw 0, and why
+/// frame.keep({Buffer::color});                  // depth and stencil are not stored
+/// renderer.finish(frame);
+/// @endcode
 class TESSERA_API Frame {
  public:
   /// @throws Error  if the frame buffer was moved from, or out of memory

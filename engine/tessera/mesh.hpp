@@ -87,6 +87,15 @@ struct IndexArray {
 /// - Borrowed: the arrays must stay unchanged until the frame is finished or reset.
 /// - Attribute arrays may be empty; else they hold one entry per vertex. `indices` may have any length.
 /// - A vertex with a NaN or an infinity in an array that the draw uses drops its primitives.
+/// @code
+/// const float positions[] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+/// const std::uint16_t indices[] = {0, 1, 2, 0, 2, 3};
+/// frame.draw({.positions = positions, .indices = indices});
+/// struct Vertex { float position[3], texcoord[2]; };  // interleaved
+/// const std::vector<Vertex> vertices(3);
+/// frame.draw({.positions = {vertices[0].position, 3, sizeof(Vertex)},
+///             .texcoords = {vertices[0].texcoord, 3, sizeof(Vertex)}});
+/// @endcode
 struct Mesh {
   Primitive primitive = Primitive::triangles;
   FloatArray positions{};       ///< x y z, or x y z w; object space

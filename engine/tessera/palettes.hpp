@@ -31,6 +31,12 @@ struct PaletteRequest {
 TESSERA_API PaletteRequest palette_request(const DisplayMode& mode);
 
 /// The colours of one or more pictures, and how often they occur. Memory: 16 bytes per distinct colour.
+/// @code
+/// PictureColors colors;
+/// colors.add(pixels);  // one call per picture that shares the palette
+/// const std::vector<Color> palette = adaptive_palette(colors, {.count = 32, .component_bits = 4});
+/// FrameBuffer amiga({.color_mode = ColorMode::index, .color_bits = 5, .palette = palette});
+/// @endcode
 class TESSERA_API PictureColors {
  public:
   PictureColors();
@@ -91,6 +97,12 @@ TESSERA_API std::vector<Color> ramp_palette(std::span<const LitMaterials> groups
 /// - Fewer bits: at most one component of an entry changes, by one level.
 /// - The first picture has its adaptive_palette(); entries beyond the colours of the picture repeat it.
 /// - Same bits on every machine.
+/// @code
+/// SmoothPalette palette({.count = 16, .component_bits = 4});
+/// PictureColors colors;
+/// colors.add(pixels);  // r g b a bytes of a frame of 24 bits
+/// buffer.set_palette(palette.follow(colors));
+/// @endcode
 class TESSERA_API SmoothPalette {
  public:
   /// @throws Error  for requests out of range

@@ -46,6 +46,13 @@ struct TextureSampler {
 /// - Level of detail by GL 2.1, equation 3.14, from exact derivatives.
 /// - Memory: 4 bytes per texel, a third more with mipmaps.
 /// - Draws borrow it: it must outlive the frame's finish or reset. It may be shared by threads.
+/// @code
+/// const std::uint8_t texels[] = {255, 0, 255, 0, 255, 0, 255, 0, 255};  // a chessboard of 3 x 3
+/// const Texture texture({.pixels = texels, .width = 3, .height = 3, .channels = 1},
+///                       {.mag = TextureFilter::nearest, .wrap_s = TextureWrap::clamp_to_edge});
+/// frame.draw(mesh, {.texture = &texture});
+/// renderer.finish(frame);
+/// @endcode
 class TESSERA_API Texture {
  public:
   /// @throws Error  for sizes, channels, strides or filters out of range, null pixels, or out of memory

@@ -171,6 +171,12 @@ struct Television {
 };
 
 /// A display. Only the members of its kind are used; ntsc and pal use `crt` and `television`.
+/// @code
+/// Display display = find_display("vga");  // a preset, or "crt:pitch=0.31,mask=grille"
+/// display.crt.mask = ShadowMask::slots;
+/// check(display);
+/// Screen screen(display, {.width = 640, .height = 480});
+/// @endcode
 struct Display {
   DisplayKind kind = DisplayKind::crt;
   CrtTube crt{};

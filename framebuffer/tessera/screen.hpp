@@ -86,6 +86,12 @@ struct ScreenWorkers {
 ///   how bright white is on average. Structure costs brightness: phosphors emit on a third of the area.
 /// - The same bits on every machine, for every number of workers and every instruction set.
 /// - One call at a time per object.
+/// @code
+/// Screen screen(find_display("crt:pitch=0.31,mask=grille"), {.width = 640, .height = 480});
+/// std::vector<std::uint8_t> image(std::size_t{3} * screen.width() * screen.height());
+/// for (int frame = 0; frame < 3; ++frame)  // `pixels`: 4 bytes per pixel
+///   screen.show({.rgb = pixels, .pixel_bytes = 4}, frame * screen.frame_ms(), {.rgb = image.data()});
+/// @endcode
 class TESSERA_DISPLAY_API Screen {
  public:
   /// @throws DisplayError  if a value is out of range, or the image would have more than 16384 rows or

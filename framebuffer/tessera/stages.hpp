@@ -48,6 +48,20 @@ struct VertexBlock {
 /// - Vertices with a value that is not finite drop their primitives (FrameStats::dropped_non_finite).
 /// - What the data of the mesh prove about a draw is not used for draws with a vertex stage.
 /// - Face normals and smooth normals that a mesh lacks are generated from its positions, before the stage.
+/// @code
+/// float time = 0.5f;  // seconds
+/// const auto move = [](const VertexBlock& block, void* data) {
+///   const float seconds = *static_cast<const float*>(data);
+///   for (std::size_t i = 0; i < block.count; ++i)
+///     block.clip[1][i] += 0.1 * std::sin(block.object[0][i] + seconds) * block.clip[3][i];
+/// };
+/// const VertexStage waves{.run = move,
+///                         .data = &time,
+///                         .name = "waves",
+///                         .reads = {.object = true, .clip = true},
+///                         .writes = {.clip = true}};
+/// frame.draw(mesh, {.vertex_stage = waves});
+/// @endcode
 struct VertexStage {
   void (*run)(const VertexBlock& block, void* data) = nullptr;
   void* data = nullptr;         ///< passed to `run`; borrowed like the mesh
@@ -100,6 +114,15 @@ struct FragmentBlock {
 /// - An exception ends the frame: Renderer::finish throws it, and the frame is still recorded.
 /// - Bits do not depend on threads, tiles or instruction set if each fragment depends on nothing but its own
 ///   inputs.
+/// @code
+/// const auto mix = [](const FragmentBlock& block, void*) {
+///   for (std::size_t i = 0; i < block.count; ++i)
+///     for (float* component : {block.color[0], block.color[1], block.color[2]})
+///       component[i] += (0.5f - component[i]) * std::min(-block.eye[2][i] / 50, 1.0f);
+/// };
+/// const FragmentStage fog{.run = mix, .name = "fog", .reads = {.color = true, .eye = true}};
+/// frame.draw(mesh, {.fragment_stage = fog});
+/// @endcode
 struct FragmentStage {
   void (*run)(const FragmentBlock& block, void* data) = nullptr;
   void* data = nullptr;         ///< passed to `run`; borrowed like the mesh

@@ -1,5 +1,5 @@
 # Installs the library, moves the installation, and uses it there like a user: through find_package and
-# pkg-config, shared and static. Checks exports, dependencies and size of the shared library. Then configures
+# pkg-config, shared and static, and builds the installed examples. Checks exports, dependencies and size of the shared library. Then configures
 # a project that embeds Tessera; building that takes minutes and is left to .ci/full.
 #
 #   cmake -DBUILD=<build tree> -DCOMPILER=<C++ compiler> -DLIBDIR=<lib> -P run.cmake
@@ -20,7 +20,7 @@ function(run)
   endif()
 endfunction()
 
-foreach(component runtime display development)
+foreach(component runtime display development documentation)
   run(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/prefix --component ${component} --strip)
 endforeach()
 file(RENAME ${work}/prefix "${prefix}")
@@ -32,6 +32,12 @@ run(COMMAND ${CMAKE_COMMAND} --build ${work}/build)
 run(COMMAND ${work}/build/consumer_tessera)
 run(COMMAND ${work}/build/consumer_static)
 run(COMMAND ${work}/build/consumer_display)
+
+message(STATUS "installed examples")
+set(examples "${prefix}/share/doc/libtessera-doc/examples")
+run(COMMAND ${CMAKE_COMMAND} -S ${examples} -B ${work}/examples -G Ninja -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER})
+run(COMMAND ${CMAKE_COMMAND} --build ${work}/examples)
+run(COMMAND ${work}/examples/picking)
 
 message(STATUS "pkg-config")
 set(ENV{PKG_CONFIG_PATH} "${prefix}/${LIBDIR}/pkgconfig")
