@@ -112,6 +112,29 @@ std::vector<std::uint8_t> read_back(const FrameBufferFormat& format,
   return image.bytes;
 }
 
+struct StoredAndShown {
+  Fingerprint stored;
+  std::vector<std::uint8_t> shown;
+};
+/// Stores every buffer and scans the picture out in one frame.
+StoredAndShown stored_and_presented(const FrameBufferFormat& format,
+                                    const std::function<void(Frame&)>& record, Renderer& by) {
+  FrameBuffer buffer(format);
+  Frame frame(buffer);
+  record(frame);
+  frame.keep({Buffer::color, Buffer::depth, Buffer::stencil, Buffer::accumulation});
+  Image image(buffer);
+  by.finish(frame, image.target());
+  return {fingerprint(buffer), image.bytes};
+}
+
+/// Whether a frame is stored and scanned out at once; otherwise there is a frame for either. Both meet every
+/// number of threads, every tile size and every instruction set.
+bool presents_what_it_stores(const RendererOptions& options) {
+  const int tile_size = options.tile_size == 128 ? 2 : options.tile_size / 64;
+  return (options.threads + tile_size + static_cast<int>(options.instruction_set)) % 3 != 0;
+}
+
 void expect_same_bits_always(const FrameBufferFormat& format, const std::function<void(Frame&)>& record) {
   Renderer& plain = renderer({.threads = 1,
                               .tile_size = 64,
@@ -123,8 +146,12 @@ void expect_same_bits_always(const FrameBufferFormat& format, const std::functio
   for (const RendererOptions& options : all_options()) {
     Renderer& by = renderer(options);
     ASSERT_EQ(by.options().threads, options.threads) << "the thread limit is lower than requested";
-    EXPECT_EQ(stored(format, record, by), expected) << text(options);
-    EXPECT_TRUE(presented(format, record, by) == shown) << "scanned out by " << text(options);
+    const StoredAndShown result =
+        presents_what_it_stores(options)
+            ? stored_and_presented(format, record, by)
+            : StoredAndShown{stored(format, record, by), presented(format, record, by)};
+    EXPECT_EQ(result.stored, expected) << text(options);
+    EXPECT_TRUE(result.shown == shown) << "scanned out by " << text(options);
   }
 }
 

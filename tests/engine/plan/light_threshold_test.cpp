@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -40,12 +41,14 @@ std::array<std::set<int>, 2> weak_lights(const std::vector<EffectNote>& notes) {
   return lights;
 }
 
+/// @param points  at which `draw` is lit; computed on first use
 void judge_weak_lights(const reference::Scene& scene, const reference::Draw& draw,
-                       const std::array<std::set<int>, 2>& weak, float threshold, ThresholdCounts& counts) {
+                       std::optional<LitPoints>& points, const std::array<std::set<int>, 2>& weak,
+                       float threshold, ThresholdCounts& counts) {
   if (weak[0].empty() && weak[1].empty()) return;
   const std::vector<reference::EyeLight> lights =
       reference::lights_in_eye_space(scene.lights, scene.camera.view_from_world);
-  const LitPoints points = lit_points(scene, draw);
+  if (!points) points = lit_points(scene, draw);
   for (int face = 0; face < 2; ++face) {
     std::vector<LightOracle> oracles;
     for (const int light : weak[static_cast<std::size_t>(face)])
@@ -53,7 +56,7 @@ void judge_weak_lights(const reference::Scene& scene, const reference::Draw& dra
                            scene.lights[static_cast<std::size_t>(light)].spot_cutoff,
                            face == 0 ? draw.material : draw.back_material, scene.light_model);
     counts.left_out += static_cast<int>(oracles.size());
-    for (const LitPoint& point : points.face[face]) {
+    for (const LitPoint& point : points->face[face]) {
       double sum[3] = {};
       for (const LightOracle& oracle : oracles) {
         const LightAtPoint at = oracle.at(point);
@@ -77,6 +80,7 @@ TEST(LightThreshold, BoundsWhatTheLightsLeftOutAdd) {
     SCOPED_TRACE("scene " + std::to_string(seed));
     const std::string text = random_scene(seed);
     const reference::Scene same = reference::parse_scene(text, "");
+    std::vector<std::optional<LitPoints>> points(same.frame.size());  // per command
     for (const float threshold : {0.02f, 0.1f, 0.5f}) {
       program::Scene scene = program::parse_scene(text, "random scene");
       scene.quality.light_threshold = threshold;
@@ -84,9 +88,9 @@ TEST(LightThreshold, BoundsWhatTheLightsLeftOutAdd) {
       Frame frame(buffer);
       record(scene, frame);
       std::size_t index = 0;
-      for (const reference::Command& command : same.frame)
-        if (const auto* draw = std::get_if<reference::Draw>(&command))
-          judge_weak_lights(same, *draw, weak_lights(frame.effects(index++)), threshold, counts);
+      for (std::size_t c = 0; c < same.frame.size(); ++c)
+        if (const auto* draw = std::get_if<reference::Draw>(&same.frame[c]))
+          judge_weak_lights(same, *draw, points[c], weak_lights(frame.effects(index++)), threshold, counts);
     }
   }
   std::printf("left out: %d pairs of a face and a light; they add up to %.2f of the threshold\n",

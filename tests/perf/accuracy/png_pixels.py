@@ -29,15 +29,29 @@ def unfiltered(raw, height, stride):
     above = bytearray(stride)
     for y in range(height):
         kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for i in range(stride):
-            left = row[i - 3] if i >= 3 else 0
-            corner = above[i - 3] if i >= 3 else 0
-            row[i] = (row[i] + (0, left, above[i], (left + above[i]) // 2, paeth(left, above[i], corner))[kind]) & 255
+        if kind == 1:
+            for i in range(3, stride):
+                row[i] = (row[i] + row[i - 3]) & 255
+        elif kind == 2:
+            row = bytearray((value + up) & 255 for value, up in zip(row, above))
+        elif kind == 3:
+            for i in range(stride):
+                left = row[i - 3] if i >= 3 else 0
+                row[i] = (row[i] + (left + above[i]) // 2) & 255
+        elif kind == 4:
+            for i in range(stride):
+                left, corner = (row[i - 3], above[i - 3]) if i >= 3 else (0, 0)
+                row[i] = (row[i] + paeth(left, above[i], corner)) & 255
+        else:
+            assert kind == 0, f"filter {kind}"
         pixels += row
         above = row
     return bytes(pixels)
 
 
 def paeth(a, b, c):
-    p = a + b - c
-    return min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+    """The one of left, above and upper left that is nearest to left + above - upper left."""
+    to_a, to_b, to_c = abs(b - c), abs(a - c), abs(a + b - 2 * c)
+    if to_a <= to_b and to_a <= to_c:
+        return a
+    return b if to_b <= to_c else c
