@@ -156,8 +156,7 @@ HWY_INLINE void FragmentTriangle::store_ids(int index, const std::uint32_t* pass
 }
 
 /// Evaluates red, green and blue of the block's pixels, the set bits, into the batch.
-/// @param kBeforeTests  for a stage that runs before the tests: a copy of its own, so that the other is
-/// inlined
+/// @param kBeforeTests  for a stage that runs before the tests: a separate copy, so that the other is inlined
 template <bool kBeforeTests>
 HWY_INLINE void FragmentTriangle::evaluate_block(int bx, int by, std::uint32_t bits) {
   ShadingBatch& batch = context.memory.batch;
