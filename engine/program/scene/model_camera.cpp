@@ -145,17 +145,20 @@ bool any_primitive_in_view(const SceneCamera& camera, double aspect, const Model
 
 }  // namespace
 
-void choose_camera(const Model& model, double aspect, bool all_sides, Scene& scene) {
-  scene.camera = framing_camera(model.mesh, aspect, all_sides, scene.name);
-  if (all_sides) return;
+std::optional<SceneCamera> camera_of_file(const Model& model, double aspect) {
   constexpr std::size_t kMaxTriedCameras = 16;  // each test costs a pass over the model
   for (std::size_t i = 0; i < std::min(model.cameras.size(), kMaxTriedCameras); ++i)
     if (const auto camera = camera_of_model(model.cameras[i], model.mesh, aspect);
-        camera && any_primitive_in_view(*camera, aspect, model)) {
-      scene.camera = *camera;
-      return;
-    }
-  if (!model.cameras.empty())
+        camera && any_primitive_in_view(*camera, aspect, model))
+      return camera;
+  return std::nullopt;
+}
+
+void choose_camera(const Model& model, double aspect, bool all_sides, Scene& scene) {
+  scene.camera = framing_camera(model.mesh, aspect, all_sides, scene.name);
+  if (all_sides || model.cameras.empty()) return;
+  if (const auto camera = camera_of_file(model, aspect)) scene.camera = *camera;
+  else
     scene.warnings.push_back(scene.name +
                              ": no camera of the file shows the model; a default camera frames it");
 }

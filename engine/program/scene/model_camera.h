@@ -1,10 +1,15 @@
 // The camera of a model's scene.
 #pragma once
 
+#include <optional>
+
 #include "engine/program/import/model.h"
 #include "engine/program/scene/scene.h"
 
 namespace tessera::program {
+
+/// Returns the first camera of the file that shows any of the model; empty: none does.
+std::optional<SceneCamera> camera_of_file(const Model& model, double aspect);
 
 /// Sets the scene's camera: the first camera of the file that shows any of the model; if none does, one that
 /// frames the model, with a warning if the file has cameras.

@@ -19,48 +19,6 @@ std::shared_ptr<const Picture> picture_of(ModelImage& image) {
   return picture;
 }
 
-/// Moves the images of the model into the scene.
-void add_textures(Model& model, Scene& scene) {
-  std::vector<std::shared_ptr<const Picture>> pictures;
-  for (ModelImage& image : model.images) pictures.push_back(picture_of(image));
-  for (const ModelTexture& texture : model.textures) {
-    const std::shared_ptr<const Picture>& picture = pictures[texture.image];
-    scene.textures.push_back(std::make_shared<const Texture>(TextureImage{.pixels = picture->rgba.data(),
-                                                                          .width = picture->width,
-                                                                          .height = picture->height,
-                                                                          .channels = 4},
-                                                             texture.sampler));
-    scene.texture_pictures.push_back(picture);
-  }
-}
-
-bool has_alpha(const ModelPart& part, const MeshData& mesh, const Model& model) {
-  if (part.texture && model.images[model.textures[*part.texture].image].has_alpha) return true;
-  if (!part.uses_colors) return part.material.diffuse.a < 1;
-  for (std::size_t i = 3; i < mesh.colors.size(); i += 4)
-    if (mesh.colors[i] < 1) return true;
-  return false;
-}
-
-DrawState state_of(const ModelPart& part, const Scene& scene) {
-  DrawState state;
-  state.material = part.material;
-  state.shading = Shading::phong;
-  const bool is_lit = part.primitive == Primitive::triangles && !part.is_unlit;
-  state.lighting = is_lit;
-  if (is_lit && part.uses_colors) state.color_material = ColorMaterial::ambient_and_diffuse;
-  if (!part.is_double_sided) state.cull = Cull::back;
-  if (part.texture) state.texture = scene.textures[*part.texture].get();
-  if (part.alpha == ModelAlpha::mask)
-    state.alpha_test = AlphaTest{.func = Compare::gequal, .ref = std::clamp(part.alpha_cutoff, 0.0f, 1.0f)};
-  if (part.alpha == ModelAlpha::blend) {
-    // Colours over the background; alpha becomes the covered share.
-    state.blend = BlendState{.src_alpha = BlendFactor::one, .dst_alpha = BlendFactor::one_minus_src_alpha};
-    state.depth.write = false;
-  }
-  return state;
-}
-
 /// Appends an attribute of a part, or the same value for each of its vertices if the part lacks it.
 void append(const std::vector<float>& from, std::size_t vertices, std::initializer_list<float> value,
             std::vector<float>& to) {
@@ -114,8 +72,52 @@ class BlendedParts {
 
 }  // namespace
 
+std::vector<std::shared_ptr<const Texture>> make_textures(
+    Model& model, std::vector<std::shared_ptr<const Picture>>& pictures) {
+  std::vector<std::shared_ptr<const Picture>> images;
+  for (ModelImage& image : model.images) images.push_back(picture_of(image));
+  std::vector<std::shared_ptr<const Texture>> textures;
+  for (const ModelTexture& texture : model.textures) {
+    const std::shared_ptr<const Picture>& picture = images[texture.image];
+    textures.push_back(std::make_shared<const Texture>(TextureImage{.pixels = picture->rgba.data(),
+                                                                    .width = picture->width,
+                                                                    .height = picture->height,
+                                                                    .channels = 4},
+                                                       texture.sampler));
+    pictures.push_back(picture);
+  }
+  return textures;
+}
+
+bool has_alpha(const ModelPart& part, const MeshData& mesh, const Model& model) {
+  if (part.texture && model.images[model.textures[*part.texture].image].has_alpha) return true;
+  if (!part.uses_colors) return part.material.diffuse.a < 1;
+  for (std::size_t i = 3; i < mesh.colors.size(); i += 4)
+    if (mesh.colors[i] < 1) return true;
+  return false;
+}
+
+DrawState part_state(const ModelPart& part, const Texture* texture) {
+  DrawState state;
+  state.material = part.material;
+  state.shading = Shading::phong;
+  const bool is_lit = part.primitive == Primitive::triangles && !part.is_unlit;
+  state.lighting = is_lit;
+  if (is_lit && part.uses_colors) state.color_material = ColorMaterial::ambient_and_diffuse;
+  if (!part.is_double_sided) state.cull = Cull::back;
+  state.texture = texture;
+  if (part.alpha == ModelAlpha::mask)
+    state.alpha_test = AlphaTest{.func = Compare::gequal, .ref = std::clamp(part.alpha_cutoff, 0.0f, 1.0f)};
+  if (part.alpha == ModelAlpha::blend) {
+    // Colours over the background; alpha becomes the covered share.
+    state.blend = BlendState{.src_alpha = BlendFactor::one, .dst_alpha = BlendFactor::one_minus_src_alpha};
+    state.depth.write = false;
+  }
+  return state;
+}
+
 void add_model_draws(Model model, Scene& scene) {
-  add_textures(model, scene);
+  scene.textures = make_textures(model, scene.texture_pictures);
   std::vector<ModelPart> parts = model.parts;
   std::vector<MeshData> meshes = split_into_parts(model);
   BlendedParts blended;
@@ -125,8 +127,9 @@ void add_model_draws(Model model, Scene& scene) {
     mesh.primitive = part.primitive;
     if (part.alpha == ModelAlpha::blend && !has_alpha(part, mesh, model)) part.alpha = ModelAlpha::opaque;
     if (!part.uses_colors) mesh.colors.clear();
+    const Texture* const texture = part.texture ? scene.textures[*part.texture].get() : nullptr;
     DrawCommand draw{
-        .mesh = scene.meshes.size(), .state = state_of(part, scene), .material_name = part.material_name};
+        .mesh = scene.meshes.size(), .state = part_state(part, texture), .material_name = part.material_name};
     if (part.alpha == ModelAlpha::blend && part.primitive == Primitive::triangles) {
       blended.add(std::move(mesh), std::move(draw));
       continue;

@@ -73,9 +73,11 @@ void read_projection(const Value& value, SceneCamera& camera) {
 
 }  // namespace
 
-SceneCamera read_camera(const Value& value) {
-  const Object object(value, {"eye", "target", "up", "projection", "view", "reversed"});
+SceneCamera read_camera(const Value& value, const std::string& base_folder, double aspect, FileCache& cache) {
+  const Object object(value, {"eye", "target", "up", "projection", "view", "reversed", "file"});
   SceneCamera camera;
+  if (object.has("file"))
+    return file_camera(Object(value, {"file"}).require("file"), base_folder, aspect, cache);
   if (object.has("view")) {
     const Object matrices(value, {"view", "projection", "reversed"});
     camera.view = matrices.require("view").matrix();

@@ -32,7 +32,7 @@ struct Names {
   NameList meshes{};
   NameList materials{};
   NameList textures{};
-  const Materials& material_of;
+  const FrameNames& defined;
   const Scene& scene;
   LightList lights;  // current lights
 };
@@ -47,7 +47,8 @@ std::size_t read_name(const Value& value, std::string_view kind, const NameList&
 }
 
 const Material& read_material_name(const Value& value, const Names& names) {
-  return names.material_of.find(names.materials.names[read_name(value, "material", names.materials)])->second;
+  return names.defined.materials.find(names.materials.names[read_name(value, "material", names.materials)])
+      ->second;
 }
 
 Matrix read_transform(const Value& value) {
@@ -169,7 +170,29 @@ void read_polygon_mode(const Value& value, DrawState& state) {
   state.back_mode = mode(value.element(1));
 }
 
-DrawCommand read_draw(const Value& value, const Names& names) {
+/// Adds the stages of a draw, if it has any.
+void read_stages(const Object& object, const Names& names, DrawCommand& draw) {
+  const auto stages = object.find("stages");
+  if (!stages || stages->size() == 0) return;
+  if (draw.state.shadow_on) stages->refuse("a draw with \"shadow_on\" has no stages");
+  draw.stages =
+      std::make_shared<const NamedStages>(*stages, names.scene.meshes[draw.mesh], draw.state.transform);
+  draw.stages->attach(draw.state);
+}
+
+GivenState given_by(const Object& object) {
+  return {.material = object.has("material"),
+          .texture = object.has("texture"),
+          .lighting = object.has("lighting"),
+          .color_material = object.has("color_material"),
+          .cull = object.has("cull"),
+          .depth = object.has("depth"),
+          .alpha_test = object.has("alpha_test"),
+          .blend = object.has("blend") || object.has("logic_op")};
+}
+
+/// A draw of the scene; of a mesh from a file, those of its parts.
+std::vector<Command> read_draw(const Value& value, const Names& names) {
   const Object object(value, {"draw",       "material",       "back_material",     "transform",  "shading",
                               "lighting",   "color_material", "provoking_vertex",  "normalize",  "cull",
                               "front_face", "depth",          "depth_range",       "color_mask", "plane_mask",
@@ -188,13 +211,20 @@ DrawCommand read_draw(const Value& value, const Names& names) {
   if (const auto mode = object.find("polygon_mode")) read_polygon_mode(*mode, draw.state);
   if (const auto size = object.find("point_size")) draw.state.point_size = read_size(*size);
   if (const auto width = object.find("line_width")) draw.state.line_width = read_size(*width);
-  if (const auto stages = object.find("stages"); stages && stages->size() > 0) {
-    if (draw.state.shadow_on) stages->refuse("a draw with \"shadow_on\" has no stages");
-    draw.stages =
-        std::make_shared<const NamedStages>(*stages, names.scene.meshes[draw.mesh], draw.state.transform);
-    draw.stages->attach(draw.state);
+  std::vector<Command> draws;
+  const auto parts = names.defined.file_draws.find(draw.mesh);
+  if (parts == names.defined.file_draws.end()) {
+    read_stages(object, names, draw);
+    draws.emplace_back(std::move(draw));
+    return draws;
   }
-  return draw;
+  const bool can_blend = names.scene.framebuffer.color_mode == ColorMode::rgb;
+  for (const DrawCommand& part : parts->second) {
+    DrawCommand combined = with_file_state(draw, part, given_by(object), can_blend);
+    read_stages(object, names, combined);
+    draws.emplace_back(std::move(combined));
+  }
+  return draws;
 }
 
 Clear read_clear(const Value& value, const FrameBufferFormat& format) {
@@ -243,8 +273,8 @@ Accum read_accum(const Value& value, const FrameBufferFormat& format) {
   return accum;
 }
 
-Command read_command(const Value& value, const Names& names, const std::string& base_folder,
-                     FileCache& cache) {
+std::vector<Command> read_command(const Value& value, const Names& names, const std::string& base_folder,
+                                  FileCache& cache) {
   static constexpr std::array<std::string_view, 8> kCommands{"clear",  "draw",   "bitmap",  "image",
                                                              "camera", "lights", "quality", "accum"};
   if (!value.json().is_object()) value.fail("an object with one of " + json::quoted_list(kCommands));
@@ -253,13 +283,16 @@ Command read_command(const Value& value, const Names& names, const std::string& 
   const Object object(value, {"clear", "draw", "bitmap", "image", "camera", "lights", "quality", "accum"});
   if (value.json().size() != 1)
     value.refuse("found several commands in one object, expected one of " + json::quoted_list(kCommands));
-  if (const auto clear = object.find("clear")) return read_clear(*clear, names.scene.framebuffer);
-  if (const auto bitmap = object.find("bitmap")) return read_bitmap(*bitmap, names.scene);
-  if (const auto image = object.find("image")) return read_image(*image, names.scene, base_folder, cache);
-  if (const auto accum = object.find("accum")) return read_accum(*accum, names.scene.framebuffer);
-  if (const auto camera = object.find("camera")) return read_camera(*camera);
-  if (const auto quality = object.find("quality")) return read_quality(*quality);
-  return read_lights(object.require("lights"));
+  if (const auto clear = object.find("clear")) return {read_clear(*clear, names.scene.framebuffer)};
+  if (const auto bitmap = object.find("bitmap")) return {read_bitmap(*bitmap, names.scene)};
+  if (const auto image = object.find("image")) return {read_image(*image, names.scene, base_folder, cache)};
+  if (const auto accum = object.find("accum")) return {read_accum(*accum, names.scene.framebuffer)};
+  if (const auto camera = object.find("camera")) {
+    const FrameBufferFormat& format = names.scene.framebuffer;
+    return {read_camera(*camera, base_folder, static_cast<double>(format.width) / format.height, cache)};
+  }
+  if (const auto quality = object.find("quality")) return {read_quality(*quality)};
+  return {read_lights(object.require("lights"), base_folder, cache)};
 }
 
 }  // namespace
@@ -276,34 +309,42 @@ void read_fragment_state(const Object& object, const Scene& scene, DrawState& st
   read_operations(object, scene.framebuffer, state);
 }
 
-std::vector<SceneCommand> read_frame(const Value& value, const Scene& scene, const Materials& materials,
-                                     const std::vector<std::string>& textures, const std::string& base_folder,
-                                     FileCache& cache) {
-  Names names{.material_of = materials, .scene = scene, .lights = scene.lights};
-  for (const MeshData& mesh : scene.meshes) names.meshes.add(mesh.name);
-  for (const auto& [name, material] : materials) names.materials.add(name);
-  for (const std::string& name : textures) names.textures.add(name);
+std::vector<SceneCommand> read_frame(const Value& value, const Scene& scene, const FrameNames& defined,
+                                     const std::string& base_folder, FileCache& cache) {
+  Names names{.defined = defined, .scene = scene, .lights = scene.lights};
+  for (const std::string& name : defined.meshes) names.meshes.add(name);
+  for (const auto& [name, material] : defined.materials) names.materials.add(name);
+  for (const std::string& name : defined.textures) names.textures.add(name);
   std::vector<SceneCommand> frame;
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Value element = value.element(i);
-    frame.push_back({read_command(element, names, base_folder, cache), element.pointer()});
-    if (const auto* lights = std::get_if<LightList>(&frame.back().value)) names.lights = *lights;
+    for (Command& command : read_command(element, names, base_folder, cache)) {
+      if (const auto* lights = std::get_if<LightList>(&command)) names.lights = *lights;
+      frame.push_back({std::move(command), element.pointer()});
+    }
   }
   return frame;
 }
 
-std::vector<SceneCommand> default_frame(const Scene& scene) {
+std::vector<SceneCommand> default_frame(const Scene& scene, const FrameNames& names) {
   const bool has_depth = scene.framebuffer.depth != DepthFormat::none;
   const bool reversed = scene.camera.reversed;
   Clear clear{.color = Color{0, 0, 0, 1}};
   if (has_depth) clear.depth = reversed ? 0 : 1;
   if (scene.framebuffer.stencil_bits > 0) clear.stencil = 0;
   std::vector<SceneCommand> frame{{clear, ""}};
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+  for (std::size_t i = 0; i < names.meshes.size(); ++i) {
     DrawCommand draw{.mesh = i};
     draw.state.depth.enabled = has_depth;
     if (reversed) draw.state.depth.test = Compare::greater;
-    frame.push_back({draw, ""});
+    const auto parts = names.file_draws.find(i);
+    if (parts == names.file_draws.end()) {
+      frame.push_back({draw, ""});
+      continue;
+    }
+    const bool can_blend = scene.framebuffer.color_mode == ColorMode::rgb;
+    for (const DrawCommand& part : parts->second)
+      frame.push_back({with_file_state(draw, part, {}, can_blend), ""});
   }
   return frame;
 }

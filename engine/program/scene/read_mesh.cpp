@@ -1,9 +1,7 @@
 // Reads meshes: built in, from a model file, or written in the scene.
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
-#include "engine/program/import/model.h"
 #include "engine/program/scene/builtin_mesh.h"
 #include "engine/program/scene/read_scene.h"
 #include "engine/program/scene/state_names.h"
@@ -30,22 +28,28 @@ MeshData read_builtin(const Value& value) {
                                    : kDefaultMeshDetail);
 }
 
-MeshData read_file(const Value& value, const std::string& base_folder, FileCache& cache, Scene& scene) {
-  const Object object(value, {"file"});
-  const Value file = object.require("file");
-  const std::filesystem::path path = std::filesystem::path(base_folder) / file.text();
-  auto model = cache.models.find(path.string());
-  if (model == cache.models.end()) {
-    model =
-        cache.models
-            .emplace(path.string(),
-                     file.checked([&] { return import_model(path.string(), ModelUse::mesh, cache.import); }))
-            .first;
+/// A mesh of a file whose parts, but for the first one, are still to be added to the scene.
+struct OpenFile {
+  std::size_t mesh;
+  const FileModel* model;
+};
+
+/// Adds the meshes and textures of a model. Draws of the mesh become the draws of its parts.
+void add_parts(const OpenFile& file, FileDraws& file_draws, Scene& scene) {
+  const FileModel& model = *file.model;
+  scene.textures.insert(scene.textures.end(), model.textures.begin(), model.textures.end());
+  const std::string name = scene.meshes[file.mesh].name;
+  std::vector<DrawCommand> draws = model.draws;
+  for (DrawCommand& draw : draws) {
+    if (&draw == &draws.front()) {
+      draw.mesh = file.mesh;
+      continue;
+    }
+    scene.meshes.push_back(model.meshes[draw.mesh]);
+    scene.meshes.back().name = name + ": " + scene.meshes.back().name;
+    draw.mesh = scene.meshes.size() - 1;
   }
-  scene.warnings.insert(scene.warnings.end(), model->second.warnings.begin(), model->second.warnings.end());
-  MeshData mesh = model->second.mesh;
-  mesh.primitive = model->second.parts.front().primitive;
-  return mesh;
+  file_draws.emplace(file.mesh, std::move(draws));
 }
 
 // Reads a list of vectors into a flat array. JSON pointers are built for errors only, which keeps long lists
@@ -140,17 +144,29 @@ MeshData read_inline(const Value& value) {
 
 }  // namespace
 
-void read_meshes(const Value& value, const std::string& base_folder, FileCache& models, Scene& scene) {
+FileDraws read_meshes(const Value& value, const std::string& base_folder, FileCache& cache, Scene& scene) {
+  std::vector<OpenFile> files;
   value.for_each_member([&](const std::string& name, const Value& member) {
     const Object object(member, {"builtin", "detail", "file", "primitive", "positions", "normals", "colors",
                                  "color_indices", "texcoords", "indices"});
     MeshData mesh;
-    if (object.has("builtin")) mesh = read_builtin(member);
-    else if (object.has("file")) mesh = read_file(member, base_folder, models, scene);
-    else mesh = read_inline(member);
+    if (object.has("builtin")) {
+      mesh = read_builtin(member);
+    } else if (object.has("file")) {
+      const FileModel& model = file_model(Object(member, {"file"}).require("file"), base_folder, cache);
+      const std::vector<std::string>& warnings = model.model.warnings;
+      scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
+      files.push_back({scene.meshes.size(), &model});
+      mesh = model.meshes[model.draws.front().mesh];
+    } else {
+      mesh = read_inline(member);
+    }
     mesh.name = name;
     scene.meshes.push_back(std::move(mesh));
   });
+  FileDraws file_draws;
+  for (const OpenFile& file : files) add_parts(file, file_draws, scene);
+  return file_draws;
 }
 
 }  // namespace tessera::program

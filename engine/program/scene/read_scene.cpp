@@ -221,9 +221,17 @@ Material read_material(const Value& value) {
 
 }  // namespace
 
-LightList read_lights(const Value& value) {
+LightList read_lights(const Value& value, const std::string& base_folder, FileCache& cache) {
   LightList lights;
-  for (std::size_t i = 0; i < value.size(); ++i) lights.push_back(read_light(value.element(i)));
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const Value element = value.element(i);
+    if (!element.json().is_object() || !element.json().contains("file")) {
+      lights.push_back(read_light(element));
+      continue;
+    }
+    const LightList of_file = file_lights(Object(element, {"file"}).require("file"), base_folder, cache);
+    lights.insert(lights.end(), of_file.begin(), of_file.end());
+  }
   return lights;
 }
 
@@ -237,7 +245,7 @@ Materials read_materials(const Value& value) {
 namespace {
 
 Scene read_scene(const Json& json, const std::string& name, const std::string& base_folder,
-                 FileCache& models) {
+                 FileCache& cache) {
   const Object top(Value(json, "", name), {"tessera", "title", "framebuffer", "camera", "light_model",
                                            "lights", "quality", "materials", "textures", "meshes", "frame"});
   const Value version = top.require("tessera");
@@ -246,20 +254,22 @@ Scene read_scene(const Json& json, const std::string& name, const std::string& b
   Scene scene{.name = name};
   if (const auto title = top.find("title")) scene.title = title->text();
   if (const auto framebuffer = top.find("framebuffer")) read_framebuffer(*framebuffer, scene);
+  const double aspect = static_cast<double>(scene.framebuffer.width) / scene.framebuffer.height;
   const auto camera = top.find("camera");
-  scene.camera = camera ? read_camera(*camera) : default_camera();
+  scene.camera = camera ? read_camera(*camera, base_folder, aspect, cache) : default_camera();
   if (const auto model = top.find("light_model")) scene.light_model = read_light_model(*model);
-  if (const auto lights = top.find("lights")) scene.lights = read_lights(*lights);
+  if (const auto lights = top.find("lights")) scene.lights = read_lights(*lights, base_folder, cache);
   if (const auto quality = top.find("quality")) scene.quality = read_quality(*quality);
-  const auto materials = top.find("materials");
-  const Materials named = materials ? read_materials(*materials) : Materials{};
-  const auto textures = top.find("textures");
-  const std::vector<std::string> texture_names =
-      textures ? read_textures(*textures, base_folder, models, scene) : std::vector<std::string>{};
-  if (const auto meshes = top.find("meshes")) read_meshes(*meshes, base_folder, models, scene);
+  FrameNames names;
+  if (const auto materials = top.find("materials")) names.materials = read_materials(*materials);
+  if (const auto textures = top.find("textures"))
+    names.textures = read_textures(*textures, base_folder, cache, scene);
+  if (const auto meshes = top.find("meshes")) {
+    meshes->for_each_member([&](const std::string& mesh, const Value&) { names.meshes.push_back(mesh); });
+    names.file_draws = read_meshes(*meshes, base_folder, cache, scene);
+  }
   const auto frame = top.find("frame");
-  scene.frame =
-      frame ? read_frame(*frame, scene, named, texture_names, base_folder, models) : default_frame(scene);
+  scene.frame = frame ? read_frame(*frame, scene, names, base_folder, cache) : default_frame(scene, names);
   return scene;
 }
 

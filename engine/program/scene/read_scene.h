@@ -7,28 +7,36 @@
 #include <vector>
 
 #include "engine/program/import/model.h"
+#include "engine/program/scene/file_model.h"
 #include "engine/program/scene/json_value.h"
 #include "engine/program/scene/scene.h"
 
 namespace tessera::program {
 
-SceneCamera read_camera(const json::Value& value);
-/// Returns the camera of a scene without one.
-SceneCamera default_camera();
-
-LightList read_lights(const json::Value& value);
 Quality read_quality(const json::Value& value);
 
 /// Contents of files, so that an animation reads each file once.
 struct FileCache {
-  std::map<std::string, Model> models;                             ///< by path
+  std::map<std::string, FileModel> models;                         ///< by path
   std::map<std::string, std::shared_ptr<const Picture>> pictures;  ///< by path
   /// By path, or by JSON text if the texels are in the scene; and by sampler.
   std::map<std::string, std::shared_ptr<const Texture>> textures;
   ImportOptions import;  ///< for models
 };
-/// Appends every mesh of the file's `meshes`, and the importer's warnings.
-void read_meshes(const json::Value& value, const std::string& base_folder, FileCache& models, Scene& scene);
+/// Draws of the parts of meshes that come from files, by the mesh's index.
+using FileDraws = std::map<std::size_t, std::vector<DrawCommand>>;
+/// Appends every mesh of the file's `meshes`, then the further parts of those from files with their textures,
+/// and the importer's warnings.
+FileDraws read_meshes(const json::Value& value, const std::string& base_folder, FileCache& cache,
+                      Scene& scene);
+
+/// @param aspect  of the picture, for cameras of model files
+SceneCamera read_camera(const json::Value& value, const std::string& base_folder, double aspect,
+                        FileCache& cache);
+/// Returns the camera of a scene without one.
+SceneCamera default_camera();
+
+LightList read_lights(const json::Value& value, const std::string& base_folder, FileCache& cache);
 
 /// Appends a row of pixels given as whole bytes of two hexadecimal digits.
 void read_hexadecimal_row(const json::Value& value, std::size_t bytes, std::vector<std::uint8_t>& row);
@@ -51,12 +59,17 @@ BitmapCommand read_bitmap(const json::Value& value, const Scene& scene);
 ImageCommand read_image(const json::Value& value, const Scene& scene, const std::string& base_folder,
                         FileCache& cache);
 
+/// Objects that the commands of a frame refer to.
+struct FrameNames {
+  std::vector<std::string> meshes;    ///< names of the first of scene.meshes
+  std::vector<std::string> textures;  ///< names of the first of scene.textures
+  Materials materials;
+  FileDraws file_draws;
+};
 /// @param scene  the scene without its frame
-/// @param textures  names of scene.textures
-std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const Materials& materials,
-                                     const std::vector<std::string>& textures, const std::string& base_folder,
-                                     FileCache& cache);
-/// Returns a clear of all buffers and a draw of every mesh.
-std::vector<SceneCommand> default_frame(const Scene& scene);
+std::vector<SceneCommand> read_frame(const json::Value& value, const Scene& scene, const FrameNames& names,
+                                     const std::string& base_folder, FileCache& cache);
+/// Returns a clear of all buffers and a draw of every named mesh.
+std::vector<SceneCommand> default_frame(const Scene& scene, const FrameNames& names);
 
 }  // namespace tessera::program
