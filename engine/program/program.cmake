@@ -2,7 +2,8 @@
 #   tessera_scene    static library: scenes, import, built-in meshes, image files, comparison of pictures. Its
 #                    users also link tessera or tessera's objects.
 #   tessera_imageio  module that contains OpenImageIO; loaded at run time
-#   tessera_import   module that contains assimp; loaded by the child process that reads a model
+#   tessera_import   module that contains assimp and the reader of 3MF; loaded by the child process that reads a
+#                    model
 #   tessera_cli      the program bin/tessera
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(meshoptimizer CONFIG REQUIRED)
@@ -29,7 +30,8 @@ file(GLOB tessera_scene_sources CONFIGURE_DEPENDS
   ${program_dir}/compare/*.cpp ${program_dir}/threads/*.cpp)
 set(tessera_imageio_sources ${program_dir}/imageio/module.cpp)
 set(tessera_import_sources
-  import_module.cpp assimp_material.cpp assimp_model.cpp assimp_view.cpp)
+  import_module.cpp assimp_material.cpp assimp_model.cpp assimp_view.cpp threemf.cpp threemf_package.cpp
+  threemf_resources.cpp threemf_xml.cpp)
 list(TRANSFORM tessera_import_sources PREPEND ${program_dir}/import/)
 list(REMOVE_ITEM tessera_scene_sources ${tessera_import_sources} ${tessera_imageio_sources})
 add_library(tessera_scene STATIC ${tessera_scene_sources} ${tessera_embedded})
@@ -47,10 +49,13 @@ target_link_libraries(tessera_imageio PRIVATE tessera_options PkgConfig::OIIO)
 set_target_properties(tessera_imageio PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${tessera_soversion})
 
 find_package(assimp CONFIG REQUIRED)
+pkg_check_modules(MINIZIP REQUIRED IMPORTED_TARGET minizip)  # archives and XML of 3MF
+find_package(pugixml CONFIG REQUIRED)
 add_library(tessera_import SHARED
-  ${tessera_import_sources} ${program_dir}/import/model_bytes.cpp ${program_dir}/import/model_normals.cpp)
+  ${tessera_import_sources} ${program_dir}/import/model_bytes.cpp ${program_dir}/import/model_normals.cpp
+  ${program_dir}/import/model_origin.cpp)
 target_link_libraries(tessera_import PRIVATE
-  tessera_options tessera assimp::assimp nlohmann_json::nlohmann_json)
+  tessera_options tessera assimp::assimp nlohmann_json::nlohmann_json PkgConfig::MINIZIP pugixml::pugixml)
 set_target_properties(tessera_import PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${tessera_soversion})
 
 set(tessera_selftest ${CMAKE_CURRENT_BINARY_DIR}/selftest_scenes.cpp)

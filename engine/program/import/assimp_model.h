@@ -1,15 +1,11 @@
 // Converts a scene that assimp has read to a Model.
 #pragma once
 
-#include <string_view>
-
 #include <assimp/scene.h>
 
 #include "engine/program/import/model.h"
 
 namespace tessera::program {
-
-inline constexpr std::string_view kHoldsNothing = "holds no triangle, line or point";
 
 /// Merges all nodes, in world space, into one mesh with one part per material and kind of primitive.
 /// - Missing normals are 0 0 0.

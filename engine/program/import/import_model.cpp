@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 template <class Function>
 Function* import_module_function(const char* name, const std::string& wanted_for) {
   void* const module =
-      load_module(TESSERA_IMPORT_FILE_NAME, wanted_for, ".obj, .ply and .stl work without it");
+      load_module(TESSERA_IMPORT_FILE_NAME, wanted_for, ".obj, .gltf, .glb, .ply and .stl work without it");
   return reinterpret_cast<Function*>(function_of(module, TESSERA_IMPORT_FILE_NAME, name));
 }
 

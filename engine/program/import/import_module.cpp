@@ -1,5 +1,5 @@
-// The module libtessera_import: the only code that uses assimp. The program loads it in a child process with
-// limits of time and memory.
+// The module libtessera_import: the reader of 3MF, and the only code that uses assimp. The program loads it
+// in a child process with limits of time and memory.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -16,6 +16,7 @@
 #include "engine/program/import/import_module_interface.h"
 #include "engine/program/import/model_bytes.h"
 #include "engine/program/import/model_normals.h"
+#include "engine/program/import/threemf.h"
 #include "engine/program/scene/file_extension.h"
 #include "engine/tessera/export.h"
 
@@ -32,9 +33,8 @@ bool contains(const std::string& path, const std::string& word) {
   throw Error(reason == "No meshes remaining" ? std::string(kHoldsNothing) : reason);
 }
 
-Model read(const std::string& path) {
+Model read_by_assimp(const std::string& path, const std::string& extension) {
   Assimp::Importer importer;
-  const std::string extension = lower_case_extension(path);
   if (extension.empty() || !importer.IsExtensionSupported(extension))
     throw Error("the file name extension is \"" + extension +
                 "\", expected one of those listed by \"tessera formats\"");
@@ -45,12 +45,17 @@ Model read(const std::string& path) {
   if (scene == nullptr) refuse(importer.GetErrorString());
   const bool is_collada = extension == ".dae" || extension == ".zae";
   Model model = model_of(*scene, is_collada);
-  importer.FreeScene();
   // assimp reads an orthographic camera of Collada as a perspective of a few degrees.
   if (extension == ".dae" && !model.cameras.empty() && contains(path, "<orthographic>")) {
     model.cameras.clear();
     model.warnings.push_back("has an orthographic camera: the cameras of such Collada files are left out");
   }
+  return model;
+}
+
+Model read(const std::string& path) {
+  const std::string extension = lower_case_extension(path);
+  Model model = extension == ".3mf" ? read_threemf(path) : read_by_assimp(path, extension);
   add_creased_normals(model);
   for (std::string& warning : model.warnings) warning = path + ": " + warning;
   return model;

@@ -1,5 +1,5 @@
-// Models from files. tinyobjloader reads Wavefront OBJ with MTL materials, readers of our own STL and PLY,
-// assimp everything else, all in a child process.
+// Models from files. Readers of our own read Wavefront OBJ with MTL materials, glTF, STL, PLY and 3MF, assimp
+// everything else, all in a child process.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/program/scene/mesh_data.h"
@@ -14,6 +15,7 @@
 namespace tessera::program {
 
 inline constexpr int kMaxNodeDepth = 500;  ///< files whose nodes are nested deeper are rejected
+inline constexpr std::string_view kHoldsNothing = "holds no triangle, line or point";  ///< a message
 
 /// An image of a material. Readers of models name files or give their bytes; decode_images() does the rest.
 struct ModelImage {
