@@ -52,9 +52,12 @@ class GltfConverter {
         images_(gltf_images(file)),
         materials_(gltf_materials(gltf_, images_.size())) {}
 
-  Model converted() {
-    for (const std::size_t node : world_.nodes)
+  Model converted(const ReportProgress& progress) {
+    double visited = 0;
+    for (const std::size_t node : world_.nodes) {
       if (gltf_.nodes[node].mesh >= 0) add_mesh(gltf_.nodes[node], world_.matrices[node]);
+      if (progress) progress(++visited / static_cast<double>(world_.nodes.size()));
+    }
     Model model{.images = std::move(images_), .warnings = file_.warnings};
     for (const auto& [key, indices] : indices_)
       if (!indices.empty()) add_part(key.first, materials_[key.second], indices, model);
@@ -197,12 +200,12 @@ class GltfConverter {
 
 }  // namespace
 
-Model import_gltf(const std::string& path) {
+Model import_gltf(const std::string& path, const ReportProgress& progress) {
   const GltfFile file = read_gltf_file(path);
   try {
-    Model model = GltfConverter(file).converted();
+    Model model = GltfConverter(file).converted(part_of(progress, 0.2, 0.7));
     constexpr double kFlat = 0;
-    add_creased_normals(model, kFlat);
+    add_creased_normals(model, kFlat, part_of(progress, 0.7, 1));
     Model view;
     add_gltf_view_of_bytes(read_text_file(path), view);
     model.cameras = std::move(view.cameras);

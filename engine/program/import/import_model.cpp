@@ -31,13 +31,14 @@ Function* import_module_function(const char* name, const std::string& wanted_for
   return reinterpret_cast<Function*>(function_of(module, TESSERA_IMPORT_FILE_NAME, name));
 }
 
-std::string import_by_module(const std::string& path) {
+std::string import_by_module(const std::string& path, const ReportProgress& progress) {
   std::string what = fs::path(path).extension().string();
   if (what.empty()) what = "\"" + path + "\"";
   auto* const import = import_module_function<tessera_import_function>(TESSERA_IMPORT_NAME, what);
   try {
     return collect_bytes([&](auto* take, void* user, char* message, std::size_t size) {
-      return import(path.c_str(), take, user, message, size);
+      const auto report = [](void* to, double done) { (*static_cast<const ReportProgress*>(to))(done); };
+      return import(path.c_str(), report, const_cast<ReportProgress*>(&progress), take, user, message, size);
     });
   } catch (const Error& error) {
     throw Error(path + ": " + error.what());
@@ -48,8 +49,8 @@ Model read_by_extension(const std::string& path, ModelUse use, const ReportProgr
   const std::string extension = lower_case_extension(path);
   if (extension == ".obj") return import_obj(path, use, part_of(progress, 0, 0.9));
   if (extension == ".ply") return import_ply(path, use, part_of(progress, 0, 0.7));
-  if (extension == ".gltf" || extension == ".glb") return import_gltf(path);
-  return model_from_bytes(import_by_module(path), path);
+  if (extension == ".gltf" || extension == ".glb") return import_gltf(path, part_of(progress, 0, 0.7));
+  return model_from_bytes(import_by_module(path, part_of(progress, 0, 0.7)), path);
 }
 
 /// A mesh has no use for images.

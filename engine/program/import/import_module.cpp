@@ -7,10 +7,12 @@
 #include <iterator>
 #include <new>
 #include <string>
+#include <utility>
 
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/Importer.hpp>
+#include <assimp/ProgressHandler.hpp>
 
 #include "engine/program/import/assimp_model.h"
 #include "engine/program/import/import_module_interface.h"
@@ -33,8 +35,22 @@ bool contains(const std::string& path, const std::string& word) {
   throw Error(reason == "No meshes remaining" ? std::string(kHoldsNothing) : reason);
 }
 
-Model read_by_assimp(const std::string& path, const std::string& extension) {
+/// Passes on how far assimp is.
+class Progress : public Assimp::ProgressHandler {
+ public:
+  explicit Progress(ReportProgress report) : report_(std::move(report)) {}
+  bool Update(float done) override {
+    if (done >= 0) report_(std::min<double>(done, 1));  // -1: unknown
+    return true;
+  }
+
+ private:
+  ReportProgress report_;
+};
+
+Model read_by_assimp(const std::string& path, const std::string& extension, const ReportProgress& progress) {
   Assimp::Importer importer;
+  importer.SetProgressHandler(new Progress(progress));  // the importer's from now on
   if (extension.empty() || !importer.IsExtensionSupported(extension))
     throw Error("the file name extension is \"" + extension +
                 "\", expected one of those listed by \"tessera formats\"");
@@ -53,10 +69,11 @@ Model read_by_assimp(const std::string& path, const std::string& extension) {
   return model;
 }
 
-Model read(const std::string& path) {
+Model read(const std::string& path, const ReportProgress& progress) {
   const std::string extension = lower_case_extension(path);
-  Model model = extension == ".3mf" ? read_threemf(path) : read_by_assimp(path, extension);
-  add_creased_normals(model);
+  const ReportProgress reading = part_of(progress, 0, 0.8);
+  Model model = extension == ".3mf" ? read_threemf(path, reading) : read_by_assimp(path, extension, reading);
+  add_creased_normals(model, kCreaseDegrees, part_of(progress, 0.8, 1));
   for (std::string& warning : model.warnings) warning = path + ": " + warning;
   return model;
 }
@@ -88,10 +105,13 @@ int answer(const Work& work, tessera_import_take_function* take, void* user, cha
 }  // namespace
 }  // namespace tessera::program
 
-extern "C" TESSERA_API int tessera_import_4(const char* path, tessera_import_take_function* take, void* user,
-                                            char* message, std::size_t message_size) {
-  return tessera::program::answer([&] { return tessera::program::to_bytes(tessera::program::read(path)); },
-                                  take, user, message, message_size);
+extern "C" TESSERA_API int tessera_import_5(const char* path, tessera_import_progress_function* progress,
+                                            void* progress_user, tessera_import_take_function* take,
+                                            void* user, char* message, std::size_t message_size) {
+  const auto report = [&](double done) { progress(progress_user, done); };
+  return tessera::program::answer(
+      [&] { return tessera::program::to_bytes(tessera::program::read(path, report)); }, take, user, message,
+      message_size);
 }
 
 extern "C" TESSERA_API int tessera_import_formats_1(tessera_import_take_function* take, void* user,

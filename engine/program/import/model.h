@@ -97,7 +97,7 @@ struct ImportOptions {
   /// Memory of the process, and at most as much for the model. 0: a quarter of the machine's memory or of
   /// what the control group of this process may have, at least 1 GiB.
   std::size_t memory_bytes = 0;
-  int seconds = 10;  ///< without progress. Readers of STL and PLY report progress, others only the result
+  int seconds = 10;                         ///< without progress
   std::function<bool()> should_continue{};  ///< polled about ten times a second; false cancels
   /// Receives the file and the share of it that is done, 0 .. 1.
   std::function<void(const std::string& path, double done)> progress{};

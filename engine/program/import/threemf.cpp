@@ -1,6 +1,7 @@
 #include "engine/program/import/threemf.h"
 
 #include <array>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <utility>
@@ -34,12 +35,18 @@ struct Selection {
 
 class Builder {
  public:
-  explicit Builder(const ReadPart& read) : read_(read) {}
+  Builder(const ReadPart& read, const ReportProgress& progress) : read_(read), progress_(progress) {}
 
   Model built() {
     const ModelDocument& root = document(model_part_name(read_));
-    for_each_child(child(root.model, "build"), "item",
-                   [&](const pugi::xml_node& item) { add_reference(item, root, {}, 0); });
+    report(0.4);
+    const pugi::xml_node build = child(root.model, "build");
+    const auto items = static_cast<double>(std::distance(build.begin(), build.end()));
+    double added = 0;
+    for_each_child(build, "item", [&](const pugi::xml_node& item) {
+      add_reference(item, root, {}, 0);
+      report(0.4 + 0.6 * ++added / items);
+    });
     for (Part& part : parts_) add_part(part);
     if (model_.parts.empty()) throw Error(std::string(kHoldsNothing));
     model_.origin = origin_for(positions_);
@@ -63,6 +70,10 @@ class Builder {
     std::size_t part, vertex, property;
     bool operator==(const VertexKey&) const = default;
   };
+
+  void report(double done) const {
+    if (progress_) progress_(done);
+  }
 
   const ModelDocument& document(const std::string& name) {
     std::unique_ptr<ModelDocument>& known = documents_[name];
@@ -251,6 +262,7 @@ class Builder {
   }
 
   const ReadPart& read_;
+  const ReportProgress& progress_;
   std::map<std::string, std::unique_ptr<ModelDocument>> documents_;
   int object_count_ = 0;
   // The mesh that is being added: its vertices in world space, and which of them have become vertices of the
@@ -269,11 +281,13 @@ class Builder {
 
 }  // namespace
 
-Model read_threemf_parts(const ReadPart& read) { return Builder(read).built(); }
+Model read_threemf_parts(const ReadPart& read, const ReportProgress& progress) {
+  return Builder(read, progress).built();
+}
 
-Model read_threemf(const std::string& path) {
+Model read_threemf(const std::string& path, const ReportProgress& progress) {
   const Package package(path);
-  return read_threemf_parts([&](const std::string& name) { return package.read(name); });
+  return read_threemf_parts([&](const std::string& name) { return package.read(name); }, progress);
 }
 
 }  // namespace tessera::program

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "engine/program/import/byte_stream.h"
 #include "engine/program/import/model.h"
 #include "engine/program/import/threemf_package.h"
 
@@ -14,9 +15,9 @@ namespace tessera::program {
 /// - Without properties, triangles have the default material. Normals are missing: 3MF has none.
 /// - Properties that are not defined, and images that are missing, become warnings.
 /// @throws Error, without the file's name, for files that are broken or hold no triangle
-Model read_threemf(const std::string& path);
+Model read_threemf(const std::string& path, const ReportProgress& progress = {});
 
 /// read_threemf() for the parts of a package.
-Model read_threemf_parts(const threemf::ReadPart& read);
+Model read_threemf_parts(const threemf::ReadPart& read, const ReportProgress& progress = {});
 
 }  // namespace tessera::program

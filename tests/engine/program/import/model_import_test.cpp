@@ -159,6 +159,21 @@ TEST_F(ModelImport, ReadsColladaLights) {
   EXPECT_FLOAT_EQ(model.ambient_light->g, 1);
 }
 
+// The readers of OBJ, glTF, PLY, STL, 3MF, and assimp.
+TEST(ModelProgress, IsReportedByEveryReader) {
+  const std::string own = TESSERA_SOURCE_DIR "/tests/models/";
+  for (const std::string& path : {own + "obj/textured.obj", own + "gltf/textured.gltf",
+                                  own + "ply/face_colors.ply", own + "stl/magics_colors.stl",
+                                  own + "threemf/color_group.3mf", (kModels / "Collada/duck.dae").string()}) {
+    std::vector<double> shares;
+    import_model(path, ModelUse::display,
+                 {.progress = [&](const std::string&, double done) { shares.push_back(done); }});
+    EXPECT_FALSE(shares.empty()) << path;
+    EXPECT_TRUE(std::ranges::is_sorted(shares)) << path;
+    for (const double done : shares) EXPECT_TRUE(done >= 0 && done <= 1) << path << ": " << done;
+  }
+}
+
 // Reads assimp's corpus; then the smallest file of each format, empty, truncated and with random bytes
 // changed.
 TEST_F(ModelImport, RendersOrRejectsEveryModelInOneLine) {
