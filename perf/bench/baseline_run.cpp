@@ -34,19 +34,36 @@ RowTimes times_of(const Row& row) {
           .reference = row.reference_ms};
 }
 
-std::string comparison_table_line(const Row& row, const RowTimes& earlier, bool has_regressed) {
+std::string comparison_table_line(const Row& row, const RowTimes& earlier, double allowed) {
   const Ratio& ratio = *row.earlier_over_now;
-  std::string text = formatted("%-22s %12.3f %12.3f %12.3f  %6.3f .. %.3f", row.name.c_str(), earlier.median,
-                               row.ms.median, ratio.value, ratio.low, ratio.high);
-  if (row.confirmations > 0) text += formatted(" measured %d times", 1 + row.confirmations);
-  return text + (has_regressed ? "  slower\n" : "\n");
+  std::string text =
+      formatted("%-22s %12.3f %12.3f %12.3f  %6.3f .. %-6.3f  %s", row.name.c_str(), earlier.median,
+                row.ms.median, ratio.value, ratio.low, ratio.high, verdict_of(ratio, allowed));
+  if (row.confirmations > 0) text += formatted(" (measured %d times)", 1 + row.confirmations);
+  return text + "\n";
 }
 
 constexpr Column kComparisonColumns[] = {
     {"earlier, ms; now, ms", "median time of a frame, as `median ms` above"},
     {"earlier/now", "ratio of the two: above 1, the row is faster now"},
-    {"interval", "what the frame times of both runs and the drift of the machine between them permit"},
+    {"interval",
+     "range of earlier/now that the frame times of both runs and the machine drift between them permit"},
 };
+
+/// The verdicts and the result, below the columns.
+std::string verdict_lines(double allowed, int slower) {
+  const double percent = 100 * allowed;
+  std::string text =
+      formatted("%-22s the whole interval is below %.3f: a frame takes %g %% longer or more (--allowed)\n",
+                "slower", 1 / (1 + allowed), percent) +
+      formatted("%-22s the whole interval is above %.3f\n", "faster", 1 + allowed) +
+      formatted("%-22s the whole interval lies between: no change beyond %g %%\n", "same", percent) +
+      formatted(
+          "%-22s the interval crosses a limit: longer runs (--seconds) or a quieter machine can tell\n\n",
+          "unsure");
+  if (slower == 0) return text + "no row is slower: exit code 0\n";
+  return text + formatted("%d %s slower: exit code 3\n", slower, slower == 1 ? "row is" : "rows are");
+}
 
 }  // namespace
 
@@ -107,9 +124,10 @@ BaselineComparison BaselineRun::compare(const Report& now, double allowed) const
         "%s has no reference times (an older version wrote it), so intervals allow for a machine that is "
         "%.0f %% slower or faster now\n",
         file_.c_str(), 100 * (kUnknownDrift - 1));
-  comparison.table += formatted("%-22s %12s %12s %12s  %s\n", "workload", "earlier, ms", "now, ms",
-                                "earlier/now", "interval");
+  comparison.table += formatted("%-22s %12s %12s %12s  %-16s  %s\n", "workload", "earlier, ms", "now, ms",
+                                "earlier/now", "interval", "verdict");
   std::map<std::string, RowTimes> only_earlier = times_;
+  int slower = 0;
   for (const Row& row : now.rows) {
     const auto found = times_.find(row.name);
     only_earlier.erase(row.name);
@@ -117,15 +135,13 @@ BaselineComparison BaselineRun::compare(const Report& now, double allowed) const
       comparison.table += row.name + ": " + (row.frames == 0 ? "not measured now" : "not in " + file_) + "\n";
       continue;
     }
-    const bool has_regressed = is_slower(*row.earlier_over_now, allowed);
-    comparison.table += comparison_table_line(row, found->second, has_regressed);
-    comparison.has_regressed |= has_regressed;
+    comparison.table += comparison_table_line(row, found->second, allowed);
+    slower += is_slower(*row.earlier_over_now, allowed) ? 1 : 0;
   }
   for (const auto& [name, times] : only_earlier) comparison.table += name + ": only in " + file_ + "\n";
   comparison.table += column_lines(kComparisonColumns);
-  comparison.table +=
-      formatted("%-22s the whole interval is below %.3f: a frame takes %g %% longer or more (--allowed)\n",
-                "slower", 1 / (1 + allowed), 100 * allowed);
+  comparison.table += verdict_lines(allowed, slower);
+  comparison.has_regressed = slower > 0;
   return comparison;
 }
 

@@ -60,6 +60,7 @@ Growth measured(const std::string& quantity, const std::string& description, con
 constexpr double kPanelWidth = 200, kPanelHeight = 150;
 constexpr double kLeft = 50, kTop = 30;
 constexpr double kPitchX = 270, kPitchY = 215;
+constexpr double kNote = 20;  // height of the line of text below
 
 /// Logarithmic axis between two powers of ten.
 class LogAxis {
@@ -107,6 +108,12 @@ std::string panel(const Growth& growth, double GrowthPoint::*value, const std::s
     svg += formatted(
         "<path class='grid' d='M%.1f %.1fh%.1f'/><text x='%.1f' y='%.1f' text-anchor='end'>%s</text>\n", x0,
         y(std::pow(10, power)), kPanelWidth, x0 - 5, y(std::pow(10, power)) + 4, label_of(power).c_str());
+  // Proportional growth through the last point, down to an edge of the panel.
+  const GrowthPoint& end = growth.points.back();
+  const double start =
+      std::max(std::pow(10, across.first()), end.count * std::pow(10, up.first()) / (end.*value));
+  svg += formatted("<path class='linear' d='M%.1f %.1fL%.1f %.1f'/>\n", x(start),
+                   y(end.*value * start / end.count), x(end.count), y(end.*value));
   std::string line;
   for (const GrowthPoint& point : growth.points) {
     line += formatted("%c%.1f %.1f", line.empty() ? 'M' : 'L', x(point.count), y(point.*value));
@@ -133,9 +140,8 @@ namespace {
 
 constexpr Column kGrowthColumns[] = {
     {"median ms", "time of a frame after the warm-up, milliseconds: half of the frames took at most this"},
-    {"peak MiB",
-     "growth of memory up to the end of the first frame, 2^20 bytes: mesh, planes, image included"},
-    {"ns per added", "nanoseconds for each unit more than in the line before"},
+    {"peak MiB", "resident memory after the first frame minus that before the set-up, 2^20 bytes"},
+    {"ns, us per ...", "time that each one more takes, from the line before to this one"},
 };
 
 /// Factor for twice the count, from the last two points.
@@ -145,57 +151,84 @@ double factor_of_doubling(const Growth& growth, double GrowthPoint::*value) {
   return std::exp2(std::log(b.*value / (a.*value)) / std::log(b.count / a.count));
 }
 
+std::string singular(const Growth& growth) { return growth.quantity.substr(0, growth.quantity.size() - 1); }
+
+/// Whether memory grows with the quantity: by more than pages that happen to be touched.
+bool grows_in_memory(const Growth& growth) {
+  constexpr double kMinGrowth = 1;  // MiB
+  return growth.points.back().mebibytes - growth.points.front().mebibytes >= kMinGrowth;
+}
+
 /// The slopes at the large end.
 std::string growth_in_words(const Growth& growth) {
   if (growth.points.size() < 2) return {};
+  const GrowthPoint& first = growth.points.front();
+  const GrowthPoint& last = growth.points.back();
   const std::string& quantity = growth.quantity;
-  const double bytes = (growth.points.back().mebibytes - growth.points.front().mebibytes) * (1 << 20) /
-                       (growth.points.back().count - growth.points.front().count);
-  return formatted(
-      "From %.0f %s on, twice the %s take %.2f times the time and %.2f times the memory; over the whole "
-      "range, "
-      "each one adds %.1f bytes.\n",
-      growth.points[growth.points.size() - 2].count, quantity.c_str(), quantity.c_str(),
-      factor_of_doubling(growth, &GrowthPoint::ms), factor_of_doubling(growth, &GrowthPoint::mebibytes),
-      bytes);
+  std::string text = formatted(
+      "From %.0f to %.0f %s, twice the %s take %.2f times the time and %.2f times the memory (2: in "
+      "proportion; "
+      "less: fixed costs still count).\n",
+      growth.points[growth.points.size() - 2].count, last.count, quantity.c_str(), quantity.c_str(),
+      factor_of_doubling(growth, &GrowthPoint::ms), factor_of_doubling(growth, &GrowthPoint::mebibytes));
+  if (!grows_in_memory(growth)) return text + "Memory does not grow with the " + quantity + ".\n";
+  return text + formatted("Over the whole range, each %s adds %.1f bytes, all buffers included.\n",
+                          singular(growth).c_str(),
+                          (last.mebibytes - first.mebibytes) * (1 << 20) / (last.count - first.count));
+}
+
+/// Time of each one more between two points, in ns.
+double ns_per_added(const GrowthPoint& from, const GrowthPoint& to) {
+  return 1e6 * (to.ms - from.ms) / (to.count - from.count);
+}
+
+std::string table_of(const Growth& growth) {
+  constexpr double kMaxNs = 10000;  // above, microseconds are easier to read
+  bool is_in_us = false;
+  for (std::size_t i = 1; i < growth.points.size(); ++i)
+    is_in_us = is_in_us || ns_per_added(growth.points[i - 1], growth.points[i]) > kMaxNs;
+  std::string text = formatted("\n%s: %s\n%12s %12s %12s %16s\n", growth.quantity.c_str(),
+                               growth.description.c_str(), growth.quantity.c_str(), "median ms", "peak MiB",
+                               ((is_in_us ? "us per " : "ns per ") + singular(growth)).c_str());
+  for (std::size_t i = 0; i < growth.points.size(); ++i) {
+    const GrowthPoint& point = growth.points[i];
+    text += formatted("%12.0f %12.3f %12.1f", point.count, point.ms, point.mebibytes);
+    if (i > 0)
+      text += formatted(" %16.1f", ns_per_added(growth.points[i - 1], point) / (is_in_us ? 1000 : 1));
+    text += "\n";
+  }
+  return text + growth_in_words(growth);
 }
 
 }  // namespace
 
 std::string growth_table(const std::vector<Growth>& all) {
   std::string text;
-  for (const Growth& growth : all) {
-    text += formatted("\n%s: %s\n%12s %12s %12s %14s\n", growth.quantity.c_str(), growth.description.c_str(),
-                      growth.quantity.c_str(), "median ms", "peak MiB", "ns per added");
-    const GrowthPoint* before = nullptr;
-    for (const GrowthPoint& point : growth.points) {
-      text += formatted("%12.0f %12.3f %12.1f", point.count, point.ms, point.mebibytes);
-      if (before != nullptr)
-        text += formatted(" %14.1f", 1e6 * (point.ms - before->ms) / (point.count - before->count));
-      text += "\n";
-      before = &point;
-    }
-    text += growth_in_words(growth);
-  }
+  for (const Growth& growth : all) text += table_of(growth);
   return text + column_lines(kGrowthColumns);
 }
 
 std::string growth_svg(const std::vector<Growth>& all) {
   const double width = kPitchX * static_cast<double>(all.size());
-  const double height = 2 * kPitchY;
+  const double height = 2 * kPitchY + kNote;
   std::string svg = formatted(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %.0f %.0f' font-family='sans-serif' "
       "font-size='11'>\n",
       width, height);
   svg +=
-      "<style>.grid{stroke:#ccc;fill:none}.line{stroke:#b03020;stroke-width:1.5;fill:none}circle{fill:#"
+      "<style>.grid{stroke:#ccc;fill:none}.linear{stroke:#888;stroke-dasharray:4 "
+      "3;fill:none}.line{stroke:#b03020;stroke-width:1.5;fill:none}circle{fill:#"
       "b03020}</style>\n";
   svg += formatted("<rect width='%.0f' height='%.0f' fill='white'/>\n", width, height);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double x0 = kLeft + kPitchX * static_cast<double>(i);
-    svg += panel(all[i], &GrowthPoint::ms, "ms per frame, by " + all[i].quantity, x0, kTop);
+    svg += panel(all[i], &GrowthPoint::ms, "median ms, by " + all[i].quantity, x0, kTop);
     svg += panel(all[i], &GrowthPoint::mebibytes, "peak MiB, by " + all[i].quantity, x0, kTop + kPitchY);
   }
+  svg += formatted(
+      "<text x='%.1f' y='%.1f'>All axes are logarithmic. Dashed: growth in proportion to the last "
+      "point.</text>\n",
+      kLeft, height - 8);
   return svg + "</svg>\n";
 }
 

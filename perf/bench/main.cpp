@@ -83,13 +83,20 @@ class Bench {
   void run(const std::vector<const WorkloadEntry*>& entries, const BaselineRun* earlier) {
     report_.has_machine = options_.machine;
     if (options_.machine) report_.core_to_core_ns[0] = core_to_core_ns();
-    show(report_.machine + "frames             " + setting_text(report_) + "\n\n");
+    show(report_.machine + "frames             " + setting_text(report_) + times_text() + "\n\n");
     if (options_.scaling) run_on_more_threads(entries);
     else if (options_.rivals) run_with_rivals(entries);
     else run_alone(entries, earlier);
     if (!options_.machine) return;
     if (!entries.empty()) measure_noise(*entries.front());
     measure_machine();
+  }
+  /// Number of frames, and sizes other than that of the setting.
+  std::string times_text() const {
+    const int repeats = options_.measure.repeats;
+    const std::string frames = repeats > 0 ? formatted("%d per row", repeats)
+                                           : formatted("%g s per row, at least 15", options_.measure.seconds);
+    return "; " + frames + ", after a warm-up; size-* and small-* have their own size";
   }
   void show(const std::string& text) const {
     if (!is_silent()) cli::write_to_stdout(text);
@@ -245,16 +252,22 @@ void trace(const BenchOptions& options, const std::vector<const WorkloadEntry*>&
   const std::unique_ptr<Workload> workload = entries.front()->make(setup);
   workload->draw();
   write_picture(heatmap_sheet(*tile_costs, workload->picture(), entries.front()->name), options.heatmap_file);
-  (options.trace_file == "-" ? std::cerr : std::cout)
-      << formatted("%s: white is %.2f nanoseconds of one thread per pixel\n", options.heatmap_file.c_str(),
-                   tile_costs->max_ns_per_pixel);
+  (options.trace_file == "-" ? std::cerr : std::cout) << formatted(
+      "%s: the frame, and the cost of its tiles in nanoseconds of one thread per pixel; white is the most "
+      "expensive tile, %.2f\nthe tiles took %.3f ms of one thread together: tests, shading and stores of "
+      "their pixels, without vertices and bins\n",
+      options.heatmap_file.c_str(), tile_costs->max_ns_per_pixel, tile_costs->tiles_ms);
 }
 
 void show_growth(const BenchOptions& options) {
   const HardwareCounters counters;
   const ThreadLimit limit(options.renderer.threads);
   const std::vector<Growth> all = measure_growth(setup_of(options), options.measure, counters);
-  (options.growth_file == "-" ? std::cerr : std::cout) << growth_table(all);
+  const std::string instruction_set(name(Renderer(options.renderer).options().instruction_set));
+  (options.growth_file == "-" ? std::cerr : std::cout)
+      << "frames             "
+      << setting_text(options.width, options.height, options.renderer.threads, instruction_set) << "\n"
+      << growth_table(all);
   write(options.growth_file, growth_svg(all));
 }
 

@@ -135,20 +135,20 @@ std::string setting_text(int width, int height, int threads, const std::string& 
 namespace {
 
 constexpr Column kRowColumns[] = {
+    {"workload", "the content of its frames: tessera bench --list"},
     {"median ms", "time of a frame after the warm-up, milliseconds: half of the frames took at most this"},
     {"quartiles ms",
      "a quarter of the frames took at most the first time, three quarters at most the second"},
-    {"95 % ms, 99 % ms", "that share of the frames took at most this"},
+    {"p95 ms, p99 ms", "percentiles: 95 and 99 % of the frames took at most this"},
     {"cold ms", "first frame, with the set-up of renderer and frame buffer"},
-    {"Mfrag/s", "million fragments shaded per second of the median frame; fill-z: tested"},
+    {"Mfrag/s", "million fragments shaded per second of the median frame (fill-z: depth-tested)"},
     {"Mtri/s", "million triangles, lines or points submitted per second of the median frame"},
     {"Mvert/s", "million vertices processed per second of the median frame"},
     {"Mpix/s", "million pixels of the frame per second of the median frame, covered or not"},
-    {"GB/s", "10^9 bytes per second that a frame moves at least: meshes, loaded and stored planes, image"},
-    {"ns/pixel", "median ms in nanoseconds, divided by the pixels of the frame"},
-    {"peak MiB",
-     "growth of memory up to the end of the first frame, 2^20 bytes: mesh, planes, image included"},
-    {"B/tri", "bytes of that per triangle without mesh, planes and image; from 100,000 triangles on"},
+    {"GB/s", "10^9 bytes per second, computed, not measured: meshes, planes, image, each once"},
+    {"ns/pixel", "median ms in nanoseconds, on all threads together, divided by the pixels of the frame"},
+    {"peak MiB", "resident memory after the first frame minus that before, 2^20 bytes: mesh, planes, image"},
+    {"B/tri", "bytes of that per triangle, without mesh, planes and image; from 100,000 triangles on"},
 };
 
 }  // namespace
@@ -157,17 +157,21 @@ std::string table_columns() { return column_lines(kRowColumns); }
 
 std::string table_heading() {
   return formatted("%-22s %9s  %-19s %9s %9s %9s %9s %8s %8s %8s %8s %8s %8s %6s\n", "workload", "median ms",
-                   "quartiles ms", "95 % ms", "99 % ms", "cold ms", "Mfrag/s", "Mtri/s", "Mvert/s", "Mpix/s",
+                   "quartiles ms", "p95 ms", "p99 ms", "cold ms", "Mfrag/s", "Mtri/s", "Mvert/s", "Mpix/s",
                    "GB/s", "ns/pixel", "peak MiB", "B/tri");
 }
 
 std::string table_line(const Row& row) {
   if (!row.fault.empty()) return formatted("%-22s not timed: %s\n", row.name.c_str(), row.fault.c_str());
+  const auto rate = [&row](std::uint64_t count, double unit) {
+    return significant(millions(count, row) * unit);
+  };
   return formatted(
-      "%-22s %9.3f  %8.3f .. %-8.3f %8.3f %9.3f %9.3f %9.0f %8.1f %8.1f %8.0f %8.2f %8.3f %8.1f %6s\n",
+      "%-22s %9.3f  %8.3f .. %-8.3f %8.3f %9.3f %9.3f %9s %8s %8s %8s %8s %8.3f %8.1f %6s\n",
       row.name.c_str(), row.ms.median, row.ms.low_quartile, row.ms.high_quartile, row.ms.percentile_95,
-      row.ms.percentile_99, row.cold_ms, millions(row.work.fragments, row), millions(row.work.triangles, row),
-      millions(row.work.vertices, row), millions(row.work.pixels, row), millions(row.work.bytes, row) * 1e-3,
+      row.ms.percentile_99, row.cold_ms, rate(row.work.fragments, 1).c_str(),
+      rate(row.work.triangles, 1).c_str(), rate(row.work.vertices, 1).c_str(),
+      rate(row.work.pixels, 1).c_str(), rate(row.work.bytes, 1e-3).c_str(),
       1e6 * row.ms.median / static_cast<double>(row.work.pixels), static_cast<double>(row.peak_bytes) / kMiB,
       bytes_per_triangle(row) ? formatted("%.0f", *bytes_per_triangle(row)).c_str() : "");
 }
@@ -190,7 +194,7 @@ std::string counters_text(const std::vector<Row>& rows) {
   const auto is_timed = [](const Row& row) { return row.frames > 0; };
   const auto is_counted = [](const Row& row) { return row.counts.has_value(); };
   if (std::any_of(rows.begin(), rows.end(), is_timed) && std::none_of(rows.begin(), rows.end(), is_counted))
-    text += "hardware counters: not available\n";
+    text += "hardware counters: not available here, so there are no cycles and instructions per frame\n";
   for (const Row& row : rows)
     if (row.counts && row.counts->cycles > 0)
       text +=
@@ -229,10 +233,30 @@ std::string reference_text(const std::vector<Row>& rows) {
   }
   if (min <= 0) return {};
   return formatted(
-      "reference work: %.2f to %.2f us per unit, in turns with the rows; it does not depend on Tessera, so "
-      "the speed "
-      "of the machine varied by %.0f %%\n",
-      1e3 * min, 1e3 * max, 100 * (max / min - 1));
+      "machine drift: the speed of the machine varied by %.0f %%: work that does not depend on Tessera took "
+      "%.2f "
+      "to %.2f us in turns with the rows; figures are not corrected for it\n",
+      100 * (max / min - 1), 1e3 * min, 1e3 * max);
+}
+
+}  // namespace
+
+namespace {
+
+/// Ratios of rows to others, as a separate table.
+std::string baseline_text(const std::vector<Row>& rows) {
+  const auto has_ratio = [](const Row& row) { return row.to_baseline.has_value(); };
+  if (std::none_of(rows.begin(), rows.end(), has_ratio)) return {};
+  std::string text = formatted("\n%-54s %8s  %s\n", "frame times of two workloads", "ratio", "interval");
+  for (const Row& row : rows)
+    if (row.to_baseline)
+      text +=
+          formatted("%-54s %8.3f  %.3f .. %.3f\n", (row.name + " / " + row.to_baseline->baseline).c_str(),
+                    row.to_baseline->ratio.value, row.to_baseline->ratio.low, row.to_baseline->ratio.high);
+  return text +
+         "Both were measured in turns for this ratio of medians, so it may differ from that of the rows "
+         "above.\n"
+         "The interval has opposite ends of the 95 % confidence intervals of both medians.\n";
 }
 
 }  // namespace
@@ -248,11 +272,7 @@ std::string table_summary(const Report& report) {
     text += formatted("core-to-core latency: %.0f ns (%.0f ns before the measurements)\n",
                       report.core_to_core_ns[1], report.core_to_core_ns[0]);
   text += counters_text(report.rows);
-  for (const Row& row : report.rows)
-    if (row.to_baseline)
-      text += formatted("%-22s takes %.3f (%.3f .. %.3f) times as long as %s\n", row.name.c_str(),
-                        row.to_baseline->ratio.value, row.to_baseline->ratio.low, row.to_baseline->ratio.high,
-                        row.to_baseline->baseline.c_str());
+  text += baseline_text(report.rows);
   if (report.has_machine)
     for (const Row& row : report.rows) text += roofline_text(row);
   return text;

@@ -79,7 +79,8 @@ constexpr Column kRivalColumns[] = {
      "median time of a frame of Tessera and of the rival, milliseconds, measured in turns"},
     {"ratio", "rival ms divided by ours ms: above 1, Tessera is faster"},
     {"interval", "of the ratio: opposite ends of the 95 % confidence intervals of both medians"},
-    {"mismatch %", "pixels of the two pictures that differ by more than two levels, per cent"},
+    {"mismatch %",
+     "pixels of which some component differs by more than 2 of 255, per cent: 0 is not yet equal"},
 };
 
 }  // namespace
@@ -110,12 +111,12 @@ std::string comparison_summary(const RivalComparisons& rival_comparisons) {
     ++count;
     if (lowest == nullptr || comparison.ratio().value < lowest->ratio().value) lowest = &comparison;
   }
-  std::string text =
-      "\nrival: " + rival_comparisons.rival +
-      formatted(
-          "; a frame that changes one pixel takes %.3f ms, in a window of one pixel %.3f ms: the "
-          "difference is the copy of the picture\n",
-          rival_comparisons.finish_ms, rival_comparisons.finish_pixel_ms);
+  std::string text = "\nrival: " + rival_comparisons.rival +
+                     formatted(
+                         "; rival ms has the copy of the picture: a frame that changes one pixel takes %.3f "
+                         "ms, in a window of one "
+                         "pixel %.3f ms\n",
+                         rival_comparisons.finish_ms, rival_comparisons.finish_pixel_ms);
   if (count != 0)
     text += formatted("geometric mean of %d ratios: %.2f; lowest: %.2f (%s)\n", count, std::exp(sum / count),
                       lowest->ratio().value, lowest->ours.name.c_str());

@@ -19,6 +19,13 @@ bool is_slower(const Ratio& earlier_over_now, double allowed) {
   return earlier_over_now.high * (1 + allowed) < 1;
 }
 
+const char* verdict_of(const Ratio& earlier_over_now, double allowed) {
+  if (is_slower(earlier_over_now, allowed)) return "slower";
+  if (earlier_over_now.low > 1 + allowed) return "faster";
+  const bool is_within = earlier_over_now.low * (1 + allowed) >= 1 && earlier_over_now.high <= 1 + allowed;
+  return is_within ? "same" : "unsure";
+}
+
 Ratio joined(const Ratio& a, const Ratio& b) {
   return {a.value, std::min(a.low, b.low), std::max(a.high, b.high)};
 }

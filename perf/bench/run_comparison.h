@@ -36,6 +36,10 @@ Ratio earlier_over_now(const RowTimes& earlier, const RowTimes& now);
 /// @param allowed  share by which a frame may take longer; 0.1 is 10 %
 bool is_slower(const Ratio& earlier_over_now, double allowed);
 
+/// Returns "slower" or "faster" if the whole interval is beyond the limit, "same" if it is within the limits,
+/// or "unsure" if it crosses one.
+const char* verdict_of(const Ratio& earlier_over_now, double allowed);
+
 /// The value of `a` and the interval that holds both: a row that was measured again is slower only if it was
 /// slower each time.
 Ratio joined(const Ratio& a, const Ratio& b);

@@ -13,4 +13,10 @@ std::string formatted(const char* format, Values... values) {
   return text;
 }
 
+/// A number with three significant digits, or all digits before the point.
+inline std::string significant(double value) {
+  if (value >= 100) return formatted("%.0f", value);
+  return value >= 10 ? formatted("%.1f", value) : formatted("%.3g", value);
+}
+
 }  // namespace tessera::bench

@@ -112,8 +112,10 @@ Heatmap heatmap(const TracedFrame& frame) {
   Heatmap map{.picture = Picture(width, height)};
   for (std::size_t i = 3; i < map.picture.rgba.size(); i += 4) map.picture.rgba[i] = 255;
   for (const FrameTask& task : frame.tasks)
-    if (task.stage == FrameStage::tiles)
+    if (task.stage == FrameStage::tiles) {
       map.max_ns_per_pixel = std::max(map.max_ns_per_pixel, ns_per_pixel(task));
+      map.tiles_ms += 1e3 * (task.end - task.begin);
+    }
   for (const FrameTask& task : frame.tasks)
     for (int y = task.pixels.y; y < task.pixels.y + task.pixels.height; ++y)
       for (int x = task.pixels.x; x < task.pixels.x + task.pixels.width; ++x)

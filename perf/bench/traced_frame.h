@@ -54,6 +54,7 @@ void paint_cost(std::uint8_t* rgba, double share);
 struct Heatmap {
   Picture picture;
   double max_ns_per_pixel = 0;  ///< nanoseconds of one thread; shown as white
+  double tiles_ms = 0;          ///< milliseconds of one thread for all tiles
 };
 /// The picture is empty if the frame has no tile tasks.
 Heatmap heatmap(const TracedFrame& frame);

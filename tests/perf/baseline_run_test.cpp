@@ -66,15 +66,21 @@ TEST_F(BenchBaselineRun, CallsARowSlowerBeyondItsInterval) {
   const BaselineComparison slower = compared(run, timed("row", 13));
   EXPECT_TRUE(slower.has_regressed);
   EXPECT_TRUE(has(slower.table, "  slower\n")) << slower.table;
+  EXPECT_TRUE(slower.table.ends_with("\n1 row is slower: exit code 3\n")) << slower.table;
   EXPECT_TRUE(has(slower.table, "  0.746 .. 0.793")) << slower.table;
   EXPECT_FALSE(has(slower.table, "no reference times")) << slower.table;
   // 12 % longer is beyond the limit, but the interval is not.
   const BaselineComparison unsure = compared(run, timed("row", 11.2));
   EXPECT_FALSE(unsure.has_regressed) << unsure.table;
+  EXPECT_TRUE(has(unsure.table, "  unsure\n")) << unsure.table;
+  EXPECT_TRUE(unsure.table.ends_with("\nno row is slower: exit code 0\n")) << unsure.table;
+  EXPECT_TRUE(has(compared(run, timed("row", 10)).table, "  same\n"));
+  EXPECT_TRUE(has(compared(run, timed("row", 8)).table, "  faster\n"));
   Row drifted = timed("row", 13);
   drifted.reference_ms *= 1.25;
   EXPECT_FALSE(compared(run, drifted).has_regressed) << "the machine is slower now";
-  for (const char* line : {"earlier, ms; now, ms ", "earlier/now ", "interval ", "slower "})
+  for (const char* line :
+       {"earlier, ms; now, ms ", "earlier/now ", "interval ", "slower ", "faster ", "same ", "unsure "})
     EXPECT_TRUE(has(slower.table, std::string("\n") + line)) << line << "\n" << slower.table;
 }
 
@@ -97,7 +103,7 @@ TEST_F(BenchBaselineRun, SaysHowOftenARowWasMeasured) {
   const BaselineRun run = earlier(report_json(report_of({timed("row", 10)})));
   Row now = timed("row", 13);
   now.confirmations = 2;
-  EXPECT_TRUE(has(compared(run, now).table, " measured 3 times  slower\n"));
+  EXPECT_TRUE(has(compared(run, now).table, "  slower (measured 3 times)\n"));
 }
 
 }  // namespace

@@ -45,24 +45,36 @@ TEST(BenchGrowth, SaysSlopesInWords) {
   std::vector<Growth> growth = linear_growth();
   growth[0].points.back().mebibytes = 500;
   const std::string table = growth_table(growth);
-  EXPECT_THAT(table, HasSubstr("From 1000 draws on, twice the draws take 1.41 times the time and 2.00 times "
-                               "the memory"));
-  EXPECT_THAT(table, HasSubstr("each one adds 5191.0 bytes.")) << "495 MiB / 99,990";
-  for (const char* column : {"\nmedian ms ", "\npeak MiB ", "\nns per added "})
+  EXPECT_THAT(table, HasSubstr("From 1000 to 100000 draws, twice the draws take 1.41 times the time and 2.00 "
+                               "times the memory"));
+  EXPECT_THAT(table, HasSubstr("each draw adds 5191.0 bytes")) << "495 MiB / 99,990";
+  EXPECT_THAT(growth_table(linear_growth()), HasSubstr("Memory does not grow with the draws.\n"));
+  for (const char* column : {"\nmedian ms ", "\npeak MiB ", "\nns, us per ... "})
     EXPECT_THAT(table, HasSubstr(column));
+}
+
+TEST(BenchGrowth, UsesMicrosecondsForLargeSteps) {
+  EXPECT_THAT(growth_table(linear_growth()), HasSubstr("      ns per draw\n"));
+  std::vector<Growth> growth = linear_growth();
+  for (GrowthPoint& point : growth[0].points) point.ms *= 1000;
+  const std::string table = growth_table(growth);
+  EXPECT_THAT(table, HasSubstr("      us per draw\n"));
+  EXPECT_THAT(table, HasSubstr("            100.0\n"));
 }
 
 TEST(BenchGrowth, PlotsTimeAndMemory) {
   const std::string svg = growth_svg(linear_growth());
-  EXPECT_THAT(svg, testing::StartsWith("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 270 430'"));
+  EXPECT_THAT(svg, testing::StartsWith("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 270 450'"));
   EXPECT_THAT(svg, testing::EndsWith("</svg>\n"));
-  EXPECT_THAT(svg, HasSubstr("ms per frame, by draws"));
+  EXPECT_THAT(svg, HasSubstr("median ms, by draws"));
   EXPECT_THAT(svg, HasSubstr("peak MiB, by draws"));
   // The axis runs from 10 to 100 k: the second of the three points is in the middle of the panel.
   EXPECT_THAT(svg, HasSubstr("<circle cx='50.0' "));
   EXPECT_THAT(svg, HasSubstr("<circle cx='150.0' "));
   EXPECT_THAT(svg, HasSubstr("<circle cx='250.0' "));
   EXPECT_THAT(svg, HasSubstr(">100 k</text>"));
+  EXPECT_THAT(svg, HasSubstr("class='linear'"));
+  EXPECT_THAT(svg, HasSubstr("All axes are logarithmic."));
 }
 
 }  // namespace

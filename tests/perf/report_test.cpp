@@ -86,9 +86,9 @@ TEST(BenchReport, ShowsHowMuchTheMachineVaried) {
   slow.reference_ms = 0.09;
   fast.reference_ms = 0.06;
   const std::string text = table_summary({.rows = {slow, kTimed, fast}});
-  EXPECT_TRUE(has(text, "reference work: 60.00 to 90.00 us per unit")) << text;
+  EXPECT_TRUE(has(text, "took 60.00 to 90.00 us in turns")) << text;
   EXPECT_TRUE(has(text, "varied by 50 %")) << text;
-  EXPECT_FALSE(has(table_summary({.rows = {kTimed}}), "reference work"));
+  EXPECT_FALSE(has(table_summary({.rows = {kTimed}}), "machine drift"));
   const nlohmann::ordered_json rows = report_json({.rows = {slow, kTimed}})["workloads"];
   EXPECT_EQ(rows[0]["reference_ms"], 0.09);
   EXPECT_FALSE(rows[1].contains("reference_ms"));
@@ -121,7 +121,7 @@ TEST(BenchReport, TableAndJsonAgree) {
   row.work.bytes = 6000000;
   EXPECT_TRUE(has(table_heading(), "peak MiB"));
   EXPECT_TRUE(has(table_line(row), " 48.0 ")) << table_line(row);
-  EXPECT_TRUE(has(table_line(row), " 3.00 ")) << "GB/s: 6 MB in 2 ms";
+  EXPECT_TRUE(has(table_line(row), " 3 ")) << "GB/s: 6 MB in 2 ms";
   const nlohmann::ordered_json json = report_json({.rows = {row}})["workloads"][0];
   EXPECT_EQ(json["peak_mebibytes"], 48);
   EXPECT_DOUBLE_EQ(json["gigabytes_per_second"], 3);
@@ -131,8 +131,9 @@ TEST(BenchReport, ShowsRatiosToBaselines) {
   Row row = kTimed;
   row.to_baseline = {.baseline = "plain", .ratio = {.value = 1.5, .low = 1.25, .high = 2}};
   const std::string text = table_summary({.rows = {kTimed, row}});
-  EXPECT_TRUE(text.ends_with("timed                  takes 1.500 (1.250 .. 2.000) times as long as plain\n"))
-      << text;
+  EXPECT_TRUE(has(text, "\ntimed / plain  ")) << text;
+  EXPECT_TRUE(has(text, "   1.500  1.250 .. 2.000\n")) << text;
+  EXPECT_FALSE(has(table_summary({.rows = {kTimed}}), "ratio"));
   const nlohmann::ordered_json rows = report_json({.rows = {kTimed, row}})["workloads"];
   EXPECT_FALSE(rows[0].contains("baseline"));
   EXPECT_FALSE(rows[0].contains("ratio_to_baseline"));
