@@ -148,8 +148,8 @@ TEST_F(BenchProgram, ComparesWithEarlierReport) {
   write("fast.json", earlier.dump());
   const Result slower = run(kFour + "--compare fast.json");
   EXPECT_EQ(slower.code, 3) << slower.out << slower.err;
-  EXPECT_TRUE(contains(slower.out, "  slower\n")) << slower.out;
-  EXPECT_TRUE(contains(slower.out, " measured 4 times  slower\n")) << slower.out;
+  EXPECT_TRUE(contains(slower.out, "  slower (measured 4 times)\n")) << slower.out;
+  EXPECT_TRUE(contains(slower.out, "\n3 rows are slower: exit code 3\n")) << slower.out;
   EXPECT_TRUE(contains(slower.out, "fill-gouraud looks slower than in fast.json: measured again\n"))
       << slower.out;
   EXPECT_TRUE(contains(slower.out, "fill-flat: not in fast.json")) << slower.out;
@@ -248,7 +248,6 @@ TEST_F(BenchProgram, MeasuresCostOfOperations) {
   const Result result = run("bench operation --size 96x64 --repeats 1 --seconds 0.001 --json report.json");
   ASSERT_EQ(result.code, 0) << result.out << result.err;
   EXPECT_TRUE(contains(result.out, "\noperation-blend / operation-none ")) << result.out;
-  EXPECT_TRUE(contains(result.out, " times as long as operation-none\n")) << result.out;
   const Json rows = Json::parse(content("report.json"))["workloads"];
   EXPECT_EQ(rows.size(), 11u);
   for (const Json& row : rows) {
