@@ -83,13 +83,16 @@ add_custom_command(OUTPUT ${tessera_gallery}
   DEPENDS ${program_dir}/cli/embed_gallery.cmake ${gallery_files}
   COMMENT "Embedding the gallery" VERBATIM)
 
-# Shared with tessera-bench and tessera-accuracy.
+# Command lines of tessera, tessera-bench and tessera-accuracy.
 set(tessera_command_line_sources command_docs.cpp command_line.cpp given_options.cpp help_text.cpp validators.cpp)
 list(TRANSFORM tessera_command_line_sources PREPEND ${program_dir}/cli/)
+add_library(tessera_command_line STATIC ${tessera_command_line_sources})
+target_link_libraries(tessera_command_line PUBLIC tessera_options CLI11::CLI11 nlohmann_json::nlohmann_json)
+target_compile_options(tessera_command_line PRIVATE $<$<CONFIG:Release>:-O1>)
 file(GLOB tessera_cli_sources CONFIGURE_DEPENDS ${program_dir}/cli/*.cpp)
+list(REMOVE_ITEM tessera_cli_sources ${tessera_command_line_sources})
 add_executable(tessera_cli ${tessera_cli_sources} ${tessera_selftest} ${tessera_gallery})
-target_link_libraries(tessera_cli PRIVATE
-  tessera_options tessera_scene tessera tessera_display CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
+target_link_libraries(tessera_cli PRIVATE tessera_command_line tessera_scene tessera tessera_display TBB::tbb)
 target_compile_options(tessera_cli PRIVATE $<$<CONFIG:Release>:-O1>)  # a third less compile time; draws nothing itself
 set_target_properties(tessera_cli PROPERTIES OUTPUT_NAME tessera INSTALL_RPATH "$ORIGIN/../lib")
 add_dependencies(tessera_cli tessera_imageio tessera_import)

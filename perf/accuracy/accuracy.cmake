@@ -14,14 +14,13 @@ add_custom_command(OUTPUT ${tessera_report_files}
 file(GLOB tessera_accuracy_sources CONFIGURE_DEPENDS ${accuracy_dir}/*.cpp)
 list(REMOVE_ITEM tessera_accuracy_sources ${accuracy_dir}/main.cpp)
 list(APPEND tessera_accuracy_sources ${tessera_report_files}
-  engine/program/cli/progress.cpp engine/program/cli/machine_text.cpp ${tessera_command_line_sources} perf/bench/statistics.cpp perf/bench/counters.cpp)
+  engine/program/cli/progress.cpp engine/program/cli/machine_text.cpp perf/bench/statistics.cpp perf/bench/counters.cpp)
 add_library(tessera_accuracy_parts OBJECT ${tessera_accuracy_sources})
 add_executable(tessera_accuracy perf/accuracy/main.cpp $<TARGET_OBJECTS:tessera_accuracy_parts>)
 foreach(target tessera_accuracy_parts tessera_accuracy)
-  target_link_libraries(${target} PRIVATE tessera_options tessera_reference tessera_scene tessera
-    CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb Threads::Threads)
+  target_link_libraries(${target} PRIVATE tessera_command_line tessera_reference tessera_scene tessera
+    TBB::tbb Threads::Threads)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)  # the measured code is in the library
-  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # files reuse names such as Json
 endforeach()
 # Part of the measured frames of lower resolutions.
 set_source_files_properties(${accuracy_dir}/enlarge.cpp PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>")

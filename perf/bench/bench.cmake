@@ -10,7 +10,7 @@ else()
   list(APPEND tessera_bench_sources perf/bench/no_mesa.cpp)
 endif()
 list(APPEND tessera_bench_sources perf/rivals/literal_shaders.cpp
-  engine/program/cli/bitmap_font.cpp engine/program/cli/scene_input.cpp engine/program/cli/progress.cpp ${tessera_command_line_sources})
+  engine/program/cli/bitmap_font.cpp engine/program/cli/scene_input.cpp engine/program/cli/progress.cpp)
 add_library(tessera_bench_parts OBJECT ${tessera_bench_sources})
 # Internals that the library does not export: the worker pool and plane stores.
 tessera_add_objects(tessera_bench_internals
@@ -21,7 +21,7 @@ add_executable(tessera_bench perf/bench/main.cpp engine/program/cli/machine_text
   $<TARGET_OBJECTS:tessera_bench_internals> $<TARGET_OBJECTS:tessera_bench_parts>)
 foreach(target tessera_bench_parts tessera_bench)
   target_link_libraries(${target} PRIVATE
-    tessera_options tessera_scene tessera CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
+    tessera_command_line tessera_scene tessera TBB::tbb)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)  # the measured code is in the library
 endforeach()
 if(TESSERA_OSMESA_INCLUDE)
