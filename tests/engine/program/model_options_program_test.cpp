@@ -71,6 +71,35 @@ TEST_F(ModelOptions, AlphaOfEdgesAndPanesIsTheCoveredShare) {
   }
 }
 
+// netpbm lays the picture over a checkerboard. Each square must be the picture with that colour as
+// background.
+TEST_F(ModelOptions, PicturesWithoutBackgroundLieOverACheckerboard) {
+  if (std::system("command -v pamcomp pngtopam >/dev/null") != 0) GTEST_SKIP() << "needs netpbm";
+  const auto is_dark = [](int x, int y) { return (x / 8 + y / 8) % 2 == 1; };
+  std::string board = "P6\n120 90\n255\n";
+  for (int y = 0; y < 90; ++y)
+    for (int x = 0; x < 120; ++x) board += std::string(3, static_cast<char>(is_dark(x, y) ? 102 : 153));
+  write("board.ppm", board);
+  for (const std::string& model : {kBunny + " --samples 4", kModels + "blended_window.gltf"}) {
+    const Picture light = render(model + " --background '#999999'"),
+                  dark = render(model + " --background '#666666'");
+    render(model + " --background none");
+    const std::string compose = "cd '" + folder_.string() +
+                                "' && pngtopam -alphapam out.png >out.pam && "
+                                "pamcomp -linear out.pam board.ppm 2>log.txt | pamtopnm >over.ppm 2>>log.txt";
+    ASSERT_EQ(std::system(compose.c_str()), 0) << content("log.txt");
+    const Picture over = read_picture(path("over.ppm"));
+    ASSERT_EQ(over.width, 120);
+    for (int y = 0; y < 90; ++y)
+      for (int x = 0; x < 120; ++x)
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::size_t i = 4 * static_cast<std::size_t>(120 * y + x) + c;
+          ASSERT_NEAR(over.rgba[i], (is_dark(x, y) ? dark : light).rgba[i], 2)
+              << model << " " << x << " " << y;
+        }
+  }
+}
+
 TEST_F(ModelOptions, BackgroundsAreColours) {
   for (const char* text : {"'#336699'", "0.2,0.4,0.6"}) {
     const Picture picture = render(kBunny + " --background " + text);
