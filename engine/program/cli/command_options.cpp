@@ -157,14 +157,15 @@ void add_drawing(CLI::App& command, SceneOverrides& overrides) {
       "(.png, .tif, ...); default: the scene's")
       ->option_text("none|COLOR");
   command.add_flag("--wireframe", overrides.wireframe, "draw the edges of polygons");
-  add_choice<UpAxis, UpAxis>(command, "--up", overrides.up,
-                             {{"x", UpAxis::x},
-                              {"y", UpAxis::y},
-                              {"z", UpAxis::z},
-                              {"-x", UpAxis::x_down},
-                              {"-y", UpAxis::y_down},
-                              {"-z", UpAxis::z_down}},
-                             "axis of a model's file that points up; default: y");
+  add_choice<std::optional<UpAxis>, UpAxis>(
+      command, "--up", overrides.up,
+      {{"x", UpAxis::x},
+       {"y", UpAxis::y},
+       {"z", UpAxis::z},
+       {"-x", UpAxis::x_down},
+       {"-y", UpAxis::y_down},
+       {"-z", UpAxis::z_down}},
+      "axis of a model's file that points up; default: z for .3mf and .smd, else y");
 }
 
 void add_repetition(CLI::App& command, RenderRequest& request) {

@@ -106,7 +106,7 @@ void SceneInput::load_standard_input(const std::string& copy, const ImportOption
 void SceneInput::load_model(const std::string& path, const ImportOptions& options) {
   const FrameBufferFormat defaults;
   Model model = import_model(path, ModelUse::display, options);
-  turn_up(overrides_.up, model);
+  turn_up(overrides_.up.value_or(up_axis_of(path)), model);
   int width = overrides_.width.value_or(defaults.width);
   int height = overrides_.height.value_or(defaults.height);
   if (overrides_.mode) {  // only the aspect matters

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include "engine/program/scene/file_extension.h"
+
 namespace tessera::program {
 namespace {
 
@@ -30,6 +32,11 @@ void turn(const AxisTurn& turn, Number* v) {
 }
 
 }  // namespace
+
+UpAxis up_axis_of(const std::string& path) {
+  const std::string extension = lower_case_extension(path);
+  return extension == ".3mf" || extension == ".smd" || extension == ".vta" ? UpAxis::z : UpAxis::y;
+}
 
 void turn_up(UpAxis axis, Model& model) {
   if (axis == UpAxis::y) return;

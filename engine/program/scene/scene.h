@@ -179,7 +179,7 @@ struct SceneOverrides {
   /// Turns the camera once around the vertical axis through the middle of the scene while time goes from 0
   /// to 1.
   bool turntable = false;
-  UpAxis up = UpAxis::y;  ///< models only: the axis of the file that points up
+  std::optional<UpAxis> up = {};  ///< models only: the axis of the file that points up
 };
 /// @throws Error for values out of range, for a palette that does not fit into the colour bits, and for
 /// values that the display mode determines

@@ -144,6 +144,16 @@ TEST_F(ModelOptions, UpAxesTurnTheModel) {
   expect_one_error("y.obj --up w", 2, "--up");
 }
 
+// SMD files have z up, as 3MF files do.
+TEST_F(ModelOptions, UpAxesFollowTheFormat) {
+  write("a.smd",
+        "version 1\nnodes\n0 \"root\" -1\nend\nskeleton\ntime 0\n0 0 0 0 0 0 0\nend\ntriangles\npaint\n"
+        "0 0 0 0 0 -1 0 0 0\n0 2 0 0 0 -1 0 1 0\n0 0 0 5 0 -1 0 0 1\nend\n");
+  const Picture expected = render("a.smd --up z");
+  EXPECT_EQ(render("a.smd").rgba, expected.rgba);
+  EXPECT_NE(render("a.smd --up y").rgba, expected.rgba);
+}
+
 TEST_F(ModelOptions, TurntablesCloseTheCircle) {
   const Result result = run("render " + kBunny + " --turntable 8 -o 't_{frame}.png' --size 60x45");
   ASSERT_EQ(result.code, 0) << result.err;
