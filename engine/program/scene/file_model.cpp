@@ -41,10 +41,40 @@ FileModel split(Model model) {
   return split;
 }
 
+std::string path_of(const Value& file, const std::string& base_folder) {
+  return (std::filesystem::path(base_folder) / file.text()).string();
+}
+
+/// The elements of the model's first kind of primitive.
+MeshData mesh_of(const Model& model) {
+  MeshData mesh = model.mesh;
+  mesh.primitive = model.parts.front().primitive;
+  mesh.indices.clear();
+  for (const ModelPart& part : model.parts) {
+    if (part.primitive != mesh.primitive) continue;
+    const auto first = model.mesh.indices.begin() + static_cast<std::ptrdiff_t>(part.first_index);
+    mesh.indices.insert(mesh.indices.end(), first, first + static_cast<std::ptrdiff_t>(part.index_count));
+  }
+  const double origin[] = {model.origin.x, model.origin.y, model.origin.z};
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    mesh.positions[i] = static_cast<float>(mesh.positions[i] + origin[i % 3]);
+  return mesh;
+}
+
 }  // namespace
 
+const FileMesh& file_mesh(const Value& file, const std::string& base_folder, FileCache& cache) {
+  const std::string path = path_of(file, base_folder);
+  auto known = cache.meshes.find(path);
+  if (known == cache.meshes.end()) {
+    const Model model = file.checked([&] { return import_model(path, ModelUse::mesh, cache.import); });
+    known = cache.meshes.emplace(path, FileMesh{mesh_of(model), model.warnings}).first;
+  }
+  return known->second;
+}
+
 const FileModel& file_model(const Value& file, const std::string& base_folder, FileCache& cache) {
-  const std::string path = (std::filesystem::path(base_folder) / file.text()).string();
+  const std::string path = path_of(file, base_folder);
   auto known = cache.models.find(path);
   if (known == cache.models.end()) {
     Model model = file.checked([&] { return import_model(path, ModelUse::display, cache.import); });
@@ -79,7 +109,6 @@ DrawCommand with_file_state(const DrawCommand& draw, const DrawCommand& of_file,
   const DrawState& from = of_file.state;
   combined.mesh = of_file.mesh;
   state.transform = state.transform * from.transform;
-  if (given.material || state.shadow_on) return combined;
   combined.material_name = of_file.material_name;
   state.material = from.material;
   if (!given.texture) state.texture = from.texture;

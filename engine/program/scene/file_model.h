@@ -21,12 +21,23 @@ struct FileModel {
   std::vector<DrawCommand> draws;
 };
 
+/// The mesh of a model file alone.
+struct FileMesh {
+  MeshData mesh;
+  std::vector<std::string> warnings;
+};
+
 struct FileCache;
 
 /// Returns the model of a file, read once per scene file.
 /// @param file  the path, relative to the folder
 /// @throws Error, naming the JSON pointer
 const FileModel& file_model(const json::Value& file, const std::string& base_folder, FileCache& cache);
+
+/// Returns the mesh of a file alone, in the coordinates of the file: its triangles, or its lines or points if
+/// it has no triangle. Meshes without normals get those that each draw generates.
+/// @throws Error, naming the JSON pointer
+const FileMesh& file_mesh(const json::Value& file, const std::string& base_folder, FileCache& cache);
 
 /// Returns the camera of a model file, in the coordinates of the file.
 /// @throws Error, naming the JSON pointer, if no camera of the file shows the model
@@ -39,7 +50,6 @@ LightList file_lights(const json::Value& file, const std::string& base_folder, F
 
 /// Values that a draw of the scene states itself; they outrank those of the file.
 struct GivenState {
-  bool material = false;  ///< the mesh alone is used, without the file's materials, textures and blending
   bool texture = false, lighting = false, color_material = false, cull = false, depth = false,
        alpha_test = false, blend = false;
 };

@@ -180,9 +180,11 @@ void read_stages(const Object& object, const Names& names, DrawCommand& draw) {
   draw.stages->attach(draw.state);
 }
 
+/// Whether a draw uses nothing of a model file but its mesh.
+bool is_of_mesh_alone(const Json& draw) { return draw.contains("material") || draw.contains("shadow_on"); }
+
 GivenState given_by(const Object& object) {
-  return {.material = object.has("material"),
-          .texture = object.has("texture"),
+  return {.texture = object.has("texture"),
           .lighting = object.has("lighting"),
           .color_material = object.has("color_material"),
           .cull = object.has("cull"),
@@ -213,7 +215,7 @@ std::vector<Command> read_draw(const Value& value, const Names& names) {
   if (const auto width = object.find("line_width")) draw.state.line_width = read_size(*width);
   std::vector<Command> draws;
   const auto parts = names.defined.file_draws.find(draw.mesh);
-  if (parts == names.defined.file_draws.end()) {
+  if (parts == names.defined.file_draws.end() || is_of_mesh_alone(value.json())) {
     read_stages(object, names, draw);
     draws.emplace_back(std::move(draw));
     return draws;
@@ -296,6 +298,19 @@ std::vector<Command> read_command(const Value& value, const Names& names, const 
 }
 
 }  // namespace
+
+MeshUses mesh_uses(const std::optional<Value>& frame, const std::vector<std::string>& meshes) {
+  MeshUses uses;
+  if (!frame) {
+    uses.with_materials = {meshes.begin(), meshes.end()};
+    return uses;
+  }
+  for (const Json& command : frame->json()) {
+    if (!command.is_object() || !command.contains("draw") || !command["draw"].is_string()) continue;
+    (is_of_mesh_alone(command) ? uses.alone : uses.with_materials).insert(command["draw"].get<std::string>());
+  }
+  return uses;
+}
 
 void read_fragment_state(const Object& object, const Scene& scene, DrawState& state) {
   state.depth.enabled = scene.framebuffer.depth != DepthFormat::none;

@@ -1,4 +1,5 @@
 // Reads meshes: built in, from a model file, or written in the scene.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -28,7 +29,7 @@ MeshData read_builtin(const Value& value) {
                                    : kDefaultMeshDetail);
 }
 
-/// A mesh of a file whose parts, but for the first one, are still to be added to the scene.
+/// A mesh whose file's parts are still to be added to the scene.
 struct OpenFile {
   std::size_t mesh;
   const FileModel* model;
@@ -41,15 +42,16 @@ void add_parts(const OpenFile& file, FileDraws& file_draws, Scene& scene) {
   const std::string name = scene.meshes[file.mesh].name;
   std::vector<DrawCommand> draws = model.draws;
   for (DrawCommand& draw : draws) {
-    if (&draw == &draws.front()) {
-      draw.mesh = file.mesh;
-      continue;
-    }
     scene.meshes.push_back(model.meshes[draw.mesh]);
     scene.meshes.back().name = name + ": " + scene.meshes.back().name;
     draw.mesh = scene.meshes.size() - 1;
   }
   file_draws.emplace(file.mesh, std::move(draws));
+}
+
+void add_warnings(const std::vector<std::string>& warnings, Scene& scene) {
+  for (const std::string& warning : warnings)
+    if (std::ranges::find(scene.warnings, warning) == scene.warnings.end()) scene.warnings.push_back(warning);
 }
 
 // Reads a list of vectors into a flat array. JSON pointers are built for errors only, which keeps long lists
@@ -144,7 +146,8 @@ MeshData read_inline(const Value& value) {
 
 }  // namespace
 
-FileDraws read_meshes(const Value& value, const std::string& base_folder, FileCache& cache, Scene& scene) {
+FileDraws read_meshes(const Value& value, const MeshUses& uses, const std::string& base_folder,
+                      FileCache& cache, Scene& scene) {
   std::vector<OpenFile> files;
   value.for_each_member([&](const std::string& name, const Value& member) {
     const Object object(member, {"builtin", "detail", "file", "primitive", "positions", "normals", "colors",
@@ -153,11 +156,17 @@ FileDraws read_meshes(const Value& value, const std::string& base_folder, FileCa
     if (object.has("builtin")) {
       mesh = read_builtin(member);
     } else if (object.has("file")) {
-      const FileModel& model = file_model(Object(member, {"file"}).require("file"), base_folder, cache);
-      const std::vector<std::string>& warnings = model.model.warnings;
-      scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
-      files.push_back({scene.meshes.size(), &model});
-      mesh = model.meshes[model.draws.front().mesh];
+      const Value file = Object(member, {"file"}).require("file");
+      const bool has_materials = uses.with_materials.contains(name);
+      if (has_materials) {
+        files.push_back({scene.meshes.size(), &file_model(file, base_folder, cache)});
+        add_warnings(files.back().model->model.warnings, scene);
+      }
+      if (!has_materials || uses.alone.contains(name)) {
+        const FileMesh& alone = file_mesh(file, base_folder, cache);
+        mesh = alone.mesh;
+        add_warnings(alone.warnings, scene);
+      }
     } else {
       mesh = read_inline(member);
     }

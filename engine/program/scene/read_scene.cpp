@@ -264,11 +264,11 @@ Scene read_scene(const Json& json, const std::string& name, const std::string& b
   if (const auto materials = top.find("materials")) names.materials = read_materials(*materials);
   if (const auto textures = top.find("textures"))
     names.textures = read_textures(*textures, base_folder, cache, scene);
+  const auto frame = top.find("frame");
   if (const auto meshes = top.find("meshes")) {
     meshes->for_each_member([&](const std::string& mesh, const Value&) { names.meshes.push_back(mesh); });
-    names.file_draws = read_meshes(*meshes, base_folder, cache, scene);
+    names.file_draws = read_meshes(*meshes, mesh_uses(frame, names.meshes), base_folder, cache, scene);
   }
-  const auto frame = top.find("frame");
   scene.frame = frame ? read_frame(*frame, scene, names, base_folder, cache) : default_frame(scene, names);
   return scene;
 }

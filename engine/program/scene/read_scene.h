@@ -3,6 +3,8 @@
 
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,17 +20,26 @@ Quality read_quality(const json::Value& value);
 /// Contents of files, so that an animation reads each file once.
 struct FileCache {
   std::map<std::string, FileModel> models;                         ///< by path
+  std::map<std::string, FileMesh> meshes;                          ///< by path
   std::map<std::string, std::shared_ptr<const Picture>> pictures;  ///< by path
   /// By path, or by JSON text if the texels are in the scene; and by sampler.
   std::map<std::string, std::shared_ptr<const Texture>> textures;
   ImportOptions import;  ///< for models
 };
+/// Names of meshes, by how the frame draws them. A mesh may be in both sets.
+struct MeshUses {
+  std::set<std::string> alone;           ///< in draws with a material, or with shadow_on
+  std::set<std::string> with_materials;  ///< in draws that use the materials of a model file
+};
+/// @param frame  empty: the default frame, which draws all meshes with their materials
+MeshUses mesh_uses(const std::optional<json::Value>& frame, const std::vector<std::string>& meshes);
+
 /// Draws of the parts of meshes that come from files, by the mesh's index.
 using FileDraws = std::map<std::size_t, std::vector<DrawCommand>>;
 /// Appends every mesh of the file's `meshes`, then the further parts of those from files with their textures,
 /// and the importer's warnings.
-FileDraws read_meshes(const json::Value& value, const std::string& base_folder, FileCache& cache,
-                      Scene& scene);
+FileDraws read_meshes(const json::Value& value, const MeshUses& uses, const std::string& base_folder,
+                      FileCache& cache, Scene& scene);
 
 /// @param aspect  of the picture, for cameras of model files
 SceneCamera read_camera(const json::Value& value, const std::string& base_folder, double aspect,

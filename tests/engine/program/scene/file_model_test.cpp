@@ -97,6 +97,24 @@ TEST(FileModel, MaterialsOfTheSceneReplaceAllOfTheFile) {
   EXPECT_THAT(state.material.diffuse, testing::FieldsAre(0, 1, 0, 1));
   EXPECT_EQ(state.texture, nullptr);
   EXPECT_FALSE(state.alpha_test);
+  EXPECT_EQ(scene.frame.size(), 2u);
+  EXPECT_EQ(scene.meshes.size(), 1u);
+}
+
+// Without a material, the file's; with one, the mesh without normals, which gets those of the draw.
+TEST(FileModel, DrawsOfBothKindsAreIndependent) {
+  const std::string with = R"(, "material": "green"}, {"draw": "m")";
+  const std::string green = R"("materials": {"green": {"diffuse": [0, 1, 0, 1]}}, )";
+  const Scene both = scene_of(green + draws("obj/zero_normals.obj", with));
+  const Scene alone = scene_of(green + draws("obj/zero_normals.obj", R"(, "material": "green")"));
+  const Scene own = scene_of(draws("obj/zero_normals.obj"));
+  ASSERT_EQ(both.frame.size(), 3u);
+  const auto indices = [](const Scene& scene, std::size_t command) {
+    return scene.meshes[draw_of(scene, command).mesh].indices;
+  };
+  EXPECT_EQ(indices(both, 1), indices(alone, 1));
+  EXPECT_EQ(indices(both, 2), indices(own, 1));
+  EXPECT_FALSE(scene_of(draws("obj/zero_normals.obj")).meshes[draw_of(own, 1).mesh].normals.empty());
 }
 
 TEST(FileModel, KeysOfADrawOutrankTheFile) {
@@ -120,7 +138,7 @@ TEST(FileModel, EachPartIsADrawAndTheDefaultFrameHasAll) {
   const std::string meshes =
       R"("meshes": {"w": {"file": "gltf/blended_window.gltf"}, "c": {"builtin": "cube"}})";
   const Scene scene = scene_of(meshes);
-  // A clear, the wall and the pane of the window, and the cube.
+  // A clear, the box and the pane of the window, and the cube.
   ASSERT_EQ(scene.frame.size(), 4u);
   EXPECT_FALSE(draw_of(scene, 1).state.blend);
   EXPECT_TRUE(draw_of(scene, 2).state.blend);
