@@ -1,6 +1,5 @@
 #include "engine/program/scene/file_model.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -20,6 +19,7 @@ std::string name_of(const ModelPart& part, std::size_t number) {
 /// Splits the model into parts and moves them back to where the file has them.
 FileModel split(Model model) {
   FileModel split;
+  std::vector<DrawCommand> blended;
   std::vector<std::shared_ptr<const Picture>> pictures;
   split.textures = make_textures(model, pictures);
   const Matrix to_file = translate(model.origin.x, model.origin.y, model.origin.z);
@@ -32,11 +32,11 @@ FileModel split(Model model) {
     if (part.alpha == ModelAlpha::blend && !has_alpha(part, mesh, model)) part.alpha = ModelAlpha::opaque;
     if (!part.uses_colors) mesh.colors.clear();
     const Texture* const texture = part.texture ? split.textures[*part.texture].get() : nullptr;
-    split.draws.push_back(
-        {.mesh = i, .state = part_state(part, texture), .material_name = part.material_name});
-    split.draws.back().state.transform = to_file;
+    DrawCommand draw{.mesh = i, .state = part_state(part, texture), .material_name = part.material_name};
+    draw.state.transform = to_file;
+    (draw.state.blend ? blended : split.draws).push_back(std::move(draw));
   }
-  std::ranges::stable_partition(split.draws, [](const DrawCommand& draw) { return !draw.state.blend; });
+  split.draws.insert(split.draws.end(), blended.begin(), blended.end());
   split.model = std::move(model);
   return split;
 }
