@@ -1,12 +1,25 @@
-// Reads the per-fragment operations of a draw.
+// Reads the per-fragment operations of draws, bitmaps and images.
 #include "engine/program/scene/read_scene.h"
 #include "engine/program/scene/state_names.h"
 
 namespace tessera::program {
 namespace {
 
+using json::Json;
 using json::Object;
 using json::Value;
+
+DepthState read_depth(const Value& value, const Scene& scene) {
+  if (value.json() == Json(false)) return {.enabled = false};
+  if (scene.framebuffer.depth == DepthFormat::none)
+    value.refuse("needs a depth buffer, and the frame buffer's \"depth\" is \"none\"");
+  if (value.json().is_boolean()) value.fail("false or an object");
+  const Object object(value, {"test", "write"});
+  DepthState depth;
+  if (const auto test = object.find("test")) depth.test = test->choice(kCompares);
+  if (const auto write = object.find("write")) depth.write = write->boolean();
+  return depth;
+}
 
 StencilOp read_stencil_op(const Value& value) {
   return value.choice<StencilOp>({{"keep", StencilOp::keep},
@@ -109,4 +122,25 @@ void read_operations(const Object& object, const FrameBufferFormat& format, Draw
   }
 }
 
+std::array<bool, 4> read_color_mask(const Value& value, const FrameBufferFormat& format) {
+  if (!value.json().is_array() || value.size() != 4) value.fail("four of true and false");
+  std::array<bool, 4> mask;
+  for (std::size_t i = 0; i < 4; ++i) mask[i] = value.element(i).boolean();
+  const bool has_components = format.color_mode == ColorMode::rgb && format.color_bits > 2;
+  if (!has_components && (mask[0] != mask[1] || mask[1] != mask[2]))
+    value.refuse(
+        "red, green and blue must be all true or all false on an index buffer or one of 1 or 2 bits");
+  return mask;
+}
+void read_fragment_state(const Object& object, const Scene& scene, DrawState& state) {
+  state.depth.enabled = scene.framebuffer.depth != DepthFormat::none;
+  if (const auto depth = object.find("depth"); depth && !depth->json().is_number())
+    state.depth = read_depth(*depth, scene);
+  if (const auto mask = object.find("color_mask"))
+    state.color_mask = read_color_mask(*mask, scene.framebuffer);
+  if (const auto mask = object.find("plane_mask"))
+    state.plane_mask = static_cast<std::uint32_t>(mask->integer(0, kMaxUint32));
+  if (const auto scissor = object.find("scissor")) state.scissor = scissor->rect();
+  read_operations(object, scene.framebuffer, state);
+}
 }  // namespace tessera::program

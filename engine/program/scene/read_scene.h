@@ -1,6 +1,9 @@
 // Readers of the parts of a scene file.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -59,6 +62,11 @@ std::vector<std::string> read_textures(const json::Value& value, const std::stri
 
 using Materials = std::map<std::string, Material, std::less<>>;
 Materials read_materials(const json::Value& value);
+
+inline constexpr std::int64_t kMaxUint32 = std::numeric_limits<std::uint32_t>::max();
+
+/// Reads four of true and false, for red, green, blue and alpha.
+std::array<bool, 4> read_color_mask(const json::Value& value, const FrameBufferFormat& format);
 
 /// Reads polygon offset, alpha test, stencil, blending and logic operation.
 void read_operations(const json::Object& object, const FrameBufferFormat& format, DrawState& state);
