@@ -10,14 +10,15 @@ else()
   list(APPEND tessera_bench_sources perf/bench/no_mesa.cpp)
 endif()
 list(APPEND tessera_bench_sources perf/rivals/literal_shaders.cpp
-  engine/program/cli/bitmap_font.cpp engine/program/cli/scene_input.cpp engine/program/cli/progress.cpp)
+  engine/program/cli/bitmap_font.cpp engine/program/cli/scene_input.cpp engine/program/cli/progress.cpp
+  engine/program/cli/machine_text.cpp)
 add_library(tessera_bench_parts OBJECT ${tessera_bench_sources})
 # Internals that the library does not export: the worker pool and plane stores.
 tessera_add_objects(tessera_bench_internals
   engine/runtime/floating_point_mode.cpp engine/runtime/worker_pool.cpp framebuffer/bit_transpose.cpp
   framebuffer/bitplane.cpp framebuffer/prefetch_lines.cpp framebuffer/instruction_set.cpp)
 set_target_properties(tessera_bench_internals PROPERTIES UNITY_BUILD OFF)  # kernels, as in tessera_kernels
-add_executable(tessera_bench perf/bench/main.cpp engine/program/cli/machine_text.cpp
+add_executable(tessera_bench perf/bench/main.cpp
   $<TARGET_OBJECTS:tessera_bench_internals> $<TARGET_OBJECTS:tessera_bench_parts>)
 foreach(target tessera_bench_parts tessera_bench)
   target_link_libraries(${target} PRIVATE
