@@ -1,5 +1,6 @@
 #include "engine/program/import/threemf.h"
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <map>
@@ -279,10 +280,22 @@ class Builder {
   Model model_;
 };
 
+std::string without_control_characters(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
+  return text;
+}
+
 }  // namespace
 
 Model read_threemf_parts(const ReadPart& read, const ReportProgress& progress) {
-  return Builder(read, progress).built();
+  try {
+    Model model = Builder(read, progress).built();
+    for (std::string& warning : model.warnings) warning = without_control_characters(warning);
+    return model;
+  } catch (const Error& error) {  // quotes the file
+    throw Error(error.code(), without_control_characters(error.what()));
+  }
 }
 
 Model read_threemf(const std::string& path, const ReportProgress& progress) {

@@ -175,6 +175,8 @@ TEST_F(ThreemfImport, MistakesAreErrorsOfOneLine) {
               HasSubstr("refers to vertex 0, there are 0"));
   EXPECT_THAT(error_of("<basematerials id=\"5\"><base displaycolor=\"red\"/></basematerials>"),
               HasSubstr("\"red\", expected #RRGGBB or #RRGGBBAA"));
+  EXPECT_THAT(error_of("<basematerials id=\"5\"><base displaycolor=\"#\x01\n0000\"/></basematerials>"),
+              HasSubstr("\"#??0000\", expected #RRGGBB"));
   EXPECT_THAT(error_of("<object"), HasSubstr("\"/3D/m.model\" is not XML"));
   EXPECT_THAT(message_of(write_archive({{"a", "b"}})), HasSubstr("lacks \"_rels/.rels\""));
   EXPECT_THAT(message_of(write_archive({{"_rels/.rels", "<Relationships/>"}})),
