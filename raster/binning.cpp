@@ -4,29 +4,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdlib>
 
 #include "raster/binning.h"
+#include "raster/clipped_triangles.h"
 #include "raster/lanes-inl.h"
-
-namespace tessera::detail {
-#ifndef TESSERA_BINNING_SHARED
-#define TESSERA_BINNING_SHARED
-/// Bins one triangle, whose bounds span tiles [x0, x1] x [y0, y1], into the tiles that its edges do not
-/// exclude.
-void bin_multi_tile_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area,
-                             const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1);
-/// Clips one triangle and bins the resulting triangles.
-void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle,
-                          std::uint8_t outcodes);
-/// True if face culling keeps the visible side of the triangle.
-inline bool passes_face_culling(const BinDraw& draw, std::uint32_t triangle, double area) {
-  const bool front = draw.facing != nullptr ? draw.facing[triangle] == Facing::front
-                                            : is_front(area, draw.front_is_clockwise);
-  return front ? draw.keep_front : draw.keep_back;
-}
-#endif
-}  // namespace tessera::detail
+#include "raster/multi_tile_triangle.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tessera::detail {
@@ -336,106 +318,10 @@ void bin_triangles(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::u
   TESSERA_KERNEL(isa, bin_triangles_lanes)(bins, grid, draw, first, last);
 }
 
-void bin_multi_tile_triangle(Bins& bins, const TileGrid& grid, const WindowVertex* const (&v)[3], double area,
-                             const BinDraw& draw, std::uint32_t id, int x0, int y0, int x1, int y1) {
-  // Per edge, its maximum over the pixel centres (or samples) of a tile; the tile is outside if one is
-  // negative. Values of 0 are left to the fill rule in the tile.
-  const std::int64_t tile_side = std::int64_t{grid.tile_size} << kSubpixelBits;
-  const std::int64_t reach = tile_side - kSubpixelScale;  // from the first to the last pixel centre
-  std::int64_t row_value[3], step_x[3], step_y[3];
-  for (int k = 0; k < 3; ++k) {
-    const WindowVertex &p = *v[k], &q = *v[(k + 1) % 3];
-    std::int64_t a = p.y - q.y, b = q.x - p.x;
-    if (area < 0) {
-      a = -a;
-      b = -b;
-    }
-    row_value[k] = a * (x0 * tile_side + kHalfPixel - p.x) + b * (y0 * tile_side + kHalfPixel - p.y) +
-                   std::max<std::int64_t>(a, 0) * reach + std::max<std::int64_t>(b, 0) * reach +
-                   (std::abs(a) + std::abs(b)) * draw.sample_reach;
-    step_x[k] = a * tile_side;
-    step_y[k] = b * tile_side;
-  }
-  for (int ty = y0; ty <= y1; ++ty) {
-    std::int64_t e0 = row_value[0], e1 = row_value[1], e2 = row_value[2];
-    for (int tx = x0; tx <= x1; ++tx) {
-      if ((e0 | e1 | e2) >= 0) bins.push(ty * grid.columns() + tx, draw.draw, id);
-      e0 += step_x[0];
-      e1 += step_x[1];
-      e2 += step_x[2];
-    }
-    for (int k = 0; k < 3; ++k) row_value[k] += step_y[k];
-  }
-}
-
 void bin_pixels(Bins& bins, const TileGrid& grid, std::uint32_t draw, const PixelRect& rect) {
   for (int ty = rect.y0 / grid.tile_size; ty <= (rect.y1 - 1) / grid.tile_size; ++ty)
     for (int tx = rect.x0 / grid.tile_size; tx <= (rect.x1 - 1) / grid.tile_size; ++tx)
       bins.push_draw(ty * grid.columns() + tx, draw);
-}
-
-ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_count) {
-  ClipVertex v;
-  if (draw.clip_positions != nullptr) {
-    v.position = draw.clip_positions[vertex];
-  } else {
-    const float* p = draw.positions.at(vertex);
-    v.object = {p[0], p[1], p[2], draw.components == 4 ? p[3] : 1.0f};
-    const TransformedVertex transformed = transform_vertex(*draw.transform, *v.object);
-    v.position = transformed.position;
-    v.needs_exact = transformed.needs_exact;
-  }
-  const float* a = draw.attributes + std::size_t{vertex} * static_cast<std::size_t>(draw.attribute_stride);
-  for (int j = 0; j < attribute_count; ++j) v.attributes[j] = a[j];
-  return v;
-}
-
-WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t outcodes,
-                             int attribute_count) {
-  const ClipVertex corners[3] = {clip_vertex(draw, vertex_index<3>(draw, triangle, 0), attribute_count),
-                                 clip_vertex(draw, vertex_index<3>(draw, triangle, 1), attribute_count),
-                                 clip_vertex(draw, vertex_index<3>(draw, triangle, 2), attribute_count)};
-  return WindowPolygon(*draw.transform, clip_triangle(*draw.transform, corners, outcodes, attribute_count));
-}
-
-void bin_clipped_triangle(Bins& bins, const TileGrid& grid, const BinDraw& draw, std::uint32_t triangle,
-                          std::uint8_t outcodes) {
-  const WindowPolygon polygon = clip_to_window(draw, triangle, outcodes, draw.attribute_count);
-  if (polygon.clipped.count == 0) {
-    ++bins.counts.outside;
-    return;
-  }
-  if (polygon.triangles().empty()) {
-    ++bins.counts.zero_area;
-    return;
-  }
-  if (!passes_face_culling(draw, triangle, polygon.area)) {  // the whole clipped polygon decides
-    ++bins.counts.culled;
-    return;
-  }
-  for (const WindowPolygon::Corners& corner : polygon.triangles()) {
-    const WindowVertex& a = polygon.window[corner[0]];
-    const WindowVertex& b = polygon.window[corner[1]];
-    const WindowVertex& c = polygon.window[corner[2]];
-    const auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
-    const auto [low_y, high_y] = std::minmax({a.y, b.y, c.y});
-    const int px0 = std::max(first_pixel(low_x - draw.sample_reach), draw.rect.x0);
-    const int px1 = std::min(last_pixel(high_x + draw.sample_reach), draw.rect.x1 - 1);
-    const int py0 = std::max(first_pixel(low_y - draw.sample_reach), draw.rect.y0);
-    const int py1 = std::min(last_pixel(high_y + draw.sample_reach), draw.rect.y1 - 1);
-    if (px0 > px1 || py0 > py1) continue;
-    DerivedPrimitive& derived = bins.add_derived(triangle, 3, draw.attribute_count);
-    for (int k = 0; k < 3; ++k) {
-      derived.vertices[k] = polygon.window[corner[k]];
-      std::copy_n(polygon.clipped.vertices[corner[k]].attributes, draw.attribute_count,
-                  bins.attributes(derived) + k * draw.attribute_count);
-    }
-    ++bins.counts.binned;
-    const WindowVertex* const v[3] = {&derived.vertices[0], &derived.vertices[1], &derived.vertices[2]};
-    bin_multi_tile_triangle(bins, grid, v, doubled_area(a, b, c), draw, bins.last_derived_id(),
-                            px0 / grid.tile_size, py0 / grid.tile_size, px1 / grid.tile_size,
-                            py1 / grid.tile_size);
-  }
 }
 
 }  // namespace tessera::detail

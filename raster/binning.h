@@ -14,7 +14,6 @@
 #include "raster/polygon_facing.h"
 #include "raster/topology.h"
 #include "raster/vertex_transform.h"
-#include "raster/window_polygon.h"
 
 namespace tessera::detail {
 
@@ -61,18 +60,19 @@ struct BinDraw {
 /// True if a triangle is front-facing. `area` is its doubled area in raster space (y down), after snapping.
 constexpr bool is_front(double area, bool front_is_clockwise) { return (area < 0) != front_is_clockwise; }
 
+/// True if face culling keeps the visible side of the triangle.
+inline bool passes_face_culling(const BinDraw& draw, std::uint32_t triangle, double area) {
+  const bool front = draw.facing != nullptr ? draw.facing[triangle] == Facing::front
+                                            : is_front(area, draw.front_is_clockwise);
+  return front ? draw.keep_front : draw.keep_back;
+}
+
 /// Vertex index of a corner of an element with kCorners corners.
 template <std::uint32_t kCorners>
 std::uint32_t vertex_index(const BinDraw& draw, std::uint32_t element, std::uint32_t corner) {
   const std::uint32_t i = element * kCorners + corner;
   return draw.indices ? draw.indices[i] : i;
 }
-/// Clip-space vertex with its attributes, before clipping.
-ClipVertex clip_vertex(const BinDraw& draw, std::uint32_t vertex, int attribute_count);
-
-/// Clips a triangle and projects the result. @param outcodes  bitwise or of the vertices' outcodes
-WindowPolygon clip_to_window(const BinDraw& draw, std::uint32_t triangle, std::uint8_t outcodes,
-                             int attribute_count);
 
 /// Bins a bitmap or an image that covers `rect`. @pre rect is not empty
 void bin_pixels(Bins& bins, const TileGrid& grid, std::uint32_t draw, const PixelRect& rect);

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "raster/binning.h"
+#include "raster/clipped_triangles.h"
 #include "raster/point_line_coverage.h"
 
 namespace tessera::detail {

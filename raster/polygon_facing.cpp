@@ -1,6 +1,6 @@
 #include "raster/polygon_facing.h"
 
-#include "raster/binning.h"
+#include "raster/clipped_triangles.h"
 
 namespace tessera::detail {
 namespace {

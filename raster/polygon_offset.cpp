@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "raster/binning.h"
+#include "raster/clipped_triangles.h"
 
 namespace tessera::detail {
 namespace {

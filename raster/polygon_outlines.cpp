@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "raster/binning.h"
+#include "raster/clipped_triangles.h"
 
 namespace tessera::detail {
 namespace {

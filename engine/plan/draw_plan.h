@@ -9,6 +9,7 @@
 #include "engine/plan/texture_plan.h"
 #include "engine/plan/varying_layout.h"
 #include "engine/record/recording.h"
+#include "raster/eye_transform.h"
 #include "raster/vertex_transform.h"
 #include "shading/lighting.h"
 #include "shading/tile_renderer.h"

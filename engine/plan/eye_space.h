@@ -4,7 +4,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "engine/tessera/tessera.hpp"
-#include "raster/vertex_transform.h"
+#include "raster/eye_transform.h"
 #include "shading/lighting.h"
 
 namespace tessera::detail {

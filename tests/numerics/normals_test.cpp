@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "raster/eye_transform.h"
 #include "raster/vertex_transform.h"
 #include "shading/lighting.h"
 #include "tests/numerics/bounds.h"

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/tessera/tessera.hpp"
+#include "raster/eye_transform.h"
 #include "raster/vertex_transform.h"
 #include "tests/numerics/bounds.h"
 #include "tests/numerics/window_triangle.h"
