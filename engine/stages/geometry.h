@@ -75,6 +75,16 @@ struct GeometryDraw {
     const bool is_read = plan->vertex_stage != nullptr && plan->vertex_stage->reads.normal;
     return is_read || (plan->varyings.stage_normal >= 0 && !writes().normal);
   }
+  /// Normals of the vertices, in object space.
+  /// @pre the mesh has normals, or needs_smooth_normals()
+  StridedFloats vertex_normals() const {
+    return mesh->normals ? mesh->normals : StridedFloats{buffers->smooth_normals.data(), 3};
+  }
+  /// Normals for lighting, in object space: per triangle if DrawPlan::face_normals, else per vertex.
+  StridedFloats lighting_normals() const {
+    if (plan->face_normals) return {buffers->face_normals.data(), 3};
+    return needs_smooth_normals() ? StridedFloats{buffers->smooth_normals.data(), 3} : mesh->normals;
+  }
   StridedFloats texcoords() const {
     return writes().texcoord ? StridedFloats{buffers->staged.texcoords.data(), 2} : mesh->texcoords;
   }
