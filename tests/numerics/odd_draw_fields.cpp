@@ -13,7 +13,7 @@ void add_draw(Fields& f) {
                                   front_face, front_mode, back_mode, point_size, line_width, depth,
                                   depth_near, depth_far, polygon_offset, alpha_test, stencil, blend, logic_op,
                                   color_mask, plane_mask, viewport, scissor, shadow_on, vertex_stage,
-                                  fragment_stage] = s;  // stages: engine/frame/user_stages_test.cpp
+                                  fragment_stage] = s;  // stages: engine/frame/user_stage_errors_test.cpp
     [[maybe_unused]] const auto& [factor, units] = o;
     [[maybe_unused]] const auto& [plane, light, color] = on;
     [[maybe_unused]] const auto& [view, projection, reversed] = c;
