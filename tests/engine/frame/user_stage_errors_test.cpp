@@ -113,16 +113,7 @@ TEST(UserStageErrors, ExceptionsEndTheFrame) {
                             .discards = discards};
         FrameBuffer buffer(kFormat);
         Frame frame(buffer);
-        frame.clear({.color = Color{0.1f, 0.2f, 0.3f, 1}, .depth = 1.0});
-        frame.set_camera({.view = look_at({0.4f, 0.6f, 2.2f}, {0, 0, 0}, {0, 1, 0}),
-                          .projection = perspective(50, 1.5, 0.9, 10)});
-        Light point;
-        point.position = {1, 2, 2, 1};
-        frame.set_lights({Light{}, point});
-        frame.set_light_model({.local_viewer = true, .two_sided = true});
-        frame.draw(ball().view(), state);
-        state.transform = translate(0.7, 0.2, 0.4) * rotate(70, 1, 1, 0);
-        frame.draw(ball().view(), state);
+        record_balls(frame, state);
         Renderer renderer({.threads = 2});
         try {
           renderer.finish(frame);

@@ -34,21 +34,11 @@ inline const MeshData& ball() {
   return kBall;
 }
 
-/// Two balls that cut each other, with a perspective view; near parts are clipped.
-struct Picture {
-  FrameBuffer buffer;
-  FrameStats stats;
-
-  explicit Picture(const FrameBufferFormat& format) : buffer(format) {}
-};
-
-inline std::unique_ptr<Picture> picture(const FrameBufferFormat& format, const DrawState& state,
-                                        const RendererOptions& options = {.threads = 2},
-                                        const MeshData& mesh = ball()) {
-  auto result = std::make_unique<Picture>(format);
-  Frame frame(result->buffer);
+/// Records two balls that cut each other, with a perspective view; near parts are clipped.
+inline void record_balls(Frame& frame, DrawState state, bool clears_depth = true,
+                         const MeshData& mesh = ball()) {
   Clear clear{.color = Color{0.1f, 0.2f, 0.3f, 1}};
-  if (format.depth != DepthFormat::none) clear.depth = 1.0;
+  if (clears_depth) clear.depth = 1.0;
   frame.clear(clear);
   frame.set_camera({.view = look_at({0.4f, 0.6f, 2.2f}, {0, 0, 0}, {0, 1, 0}),
                     .projection = perspective(50, 1.5, 0.9, 10)});
@@ -56,10 +46,25 @@ inline std::unique_ptr<Picture> picture(const FrameBufferFormat& format, const D
   point.position = {1, 2, 2, 1};
   frame.set_lights({Light{}, point});
   frame.set_light_model({.local_viewer = true, .two_sided = true});
-  DrawState moved = state;
-  frame.draw(mesh.view(), moved);
-  moved.transform = translate(0.7, 0.2, 0.4) * rotate(70, 1, 1, 0);
-  frame.draw(mesh.view(), moved);
+  frame.draw(mesh.view(), state);
+  state.transform = translate(0.7, 0.2, 0.4) * rotate(70, 1, 1, 0);
+  frame.draw(mesh.view(), state);
+}
+
+struct Picture {
+  FrameBuffer buffer;
+  FrameStats stats;
+
+  explicit Picture(const FrameBufferFormat& format) : buffer(format) {}
+};
+
+/// The picture of record_balls().
+inline std::unique_ptr<Picture> picture(const FrameBufferFormat& format, const DrawState& state,
+                                        const RendererOptions& options = {.threads = 2},
+                                        const MeshData& mesh = ball()) {
+  auto result = std::make_unique<Picture>(format);
+  Frame frame(result->buffer);
+  record_balls(frame, state, format.depth != DepthFormat::none, mesh);
   result->stats = Renderer(options).finish(frame);
   return result;
 }

@@ -75,7 +75,7 @@ TEST_F(ModelOptions, AlphaOfEdgesAndPanesIsTheCoveredShare) {
 // background.
 TEST_F(ModelOptions, PicturesWithoutBackgroundLieOverACheckerboard) {
   if (std::system("command -v pamcomp >/dev/null && command -v pngtopam >/dev/null") != 0)
-    GTEST_SKIP() << "needs netpbm";
+    GTEST_SKIP() << "needs pamcomp and pngtopam (Debian package netpbm)";
   const auto is_dark = [](int x, int y) { return (x / 8 + y / 8) % 2 == 1; };
   std::string board = "P6\n120 90\n255\n";
   for (int y = 0; y < 90; ++y)
